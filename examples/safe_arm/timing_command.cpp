@@ -46,6 +46,16 @@ std::vector<std::string> make_findings(mamori::safety::SafeState state, std::siz
     return {finding};
 }
 
+/// The states of the supervisor, which begin with 1.
+std::vector<mamori::timing::SystemState> list_states() {
+    std::vector<mamori::timing::SystemState> states;
+    for (std::size_t i = 0U; i < mamori::safety::kSafeStateCount; ++i) {
+        const auto state = static_cast<mamori::safety::SafeState>(i + 1U);
+        states.push_back({get_name(state), state == mamori::safety::SafeState::kOperational});
+    }
+    return states;
+}
+
 int run_timing_command(const RunOptions& options) {
     // Static: work that hangs when the run is over may still use them.
     static mamori::sim::LoadedModel loaded;
@@ -73,6 +83,8 @@ int run_timing_command(const RunOptions& options) {
     timing.out = options.out;
     timing.with_requests = options.with_requests;
     timing.introspection = &introspection;
+    timing.states = list_states();
+    timing.get_state = [] { return static_cast<std::size_t>(supervisor.get_state()) - 1U; };
     timing.save_table = save_table;
     timing.tell_notes = [&machine] { return make_notes(machine); };
     timing.tell_findings = [] { return make_findings(supervisor.get_state(), supervisor.get_first_fault()); };

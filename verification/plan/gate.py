@@ -176,6 +176,8 @@ def long_steps() -> tuple[Step, ...]:
         campaign("time", "610000", "1000", "1", "storm"),
         campaign("partition", "1000", "1"),
         Step(name="verdicts in real time", commands=((*PYTHON, "verification.real_time", "--all"),), needs=(BUILD,), tier=Tier.ALL),
+        Step(name="verdicts of the timing report", commands=((*PYTHON, "verification.real_time.timing_verdict"),), needs=(BUILD,),
+             inconclusive=(EXIT_UNFINISHED,), tier=Tier.ALL),
     )
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Evaluates the measurements of windows and components: pure functions from arrays to figures.
 
-@satisfies SWR-TIM-012, SWR-TIM-013, SWR-TIM-014, SWR-TIM-040      Design: docs/design/timing.md#figures
+@satisfies SWR-TIM-012, SWR-TIM-013, SWR-TIM-014, SWR-TIM-040, SWR-TIM-044      Design: docs/design/timing.md#figures
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mamori_tools.timing.reader import COMPLETED, MISSED, NOT_BACK, OUTCOMES, OVERRUN, Array, Measurement
+from mamori_tools.timing.verdict import COMPONENT, OWN_PROCESS, Cause, judge_late, judge_overrun
 
 OPENED = (COMPLETED, OVERRUN, MISSED)
 """Outcomes with a lateness; other instances had no window start."""
@@ -41,8 +42,9 @@ class Series:
 
 @dataclass(frozen=True)
 class Miss:
-    """An overrun or skipped window. `component`: the component that had not returned or not begun; empty if none ran. `is_host`: the window
-    was released too late for its complete budget, or did not get the processor within it."""
+    """An overrun or skipped window. `component`: the component that had not returned or not begun; empty if none ran. `verdict`: who caused
+    it (verdict.py). `by`: the thread that ran instead, or a component of another window; may be empty. `since_cycle`: cycle in which the
+    work began that had not returned."""
 
     cycle: int
     release_ns: int
@@ -51,7 +53,14 @@ class Miss:
     component: str | None
     late_ns: int
     reason: str
-    is_host: bool
+    verdict: str
+    by: str
+    since_cycle: int
+
+    @property
+    def is_of_code(self) -> bool:
+        """Whether the program caused it: a component or another thread."""
+        return self.verdict in (COMPONENT, OWN_PROCESS)
 
 
 @dataclass(frozen=True)
@@ -66,6 +75,21 @@ class Drift:
     @property
     def shift_ns(self) -> int | None:
         return None if self.first_ns is None or self.last_ns is None else self.last_ns - self.first_ns
+
+
+@dataclass(frozen=True)
+class WindowUse:
+    """Who used the processor during the instances of a window. `cpu`: CPU time of its thread per instance whose steps all returned.
+    `voluntary`, `involuntary`: switches away from this thread within steps. `own_ns`, `outside_ns`: time of other threads of the program, and
+    of other processes and the kernel, from planned start to end, over all instances; None without recorded switches. `longest_by`: thread with
+    the longest stay in the instance with the most such time."""
+
+    cpu: Distribution | None
+    voluntary: int
+    involuntary: int
+    own_ns: int | None
+    outside_ns: int | None
+    longest_by: str
 
 
 @dataclass(frozen=True)
@@ -86,6 +110,7 @@ class WindowRow:
     used_max_ns: int | None
     budget_margin_ns: int | None
     length_margin_ns: int | None
+    use: WindowUse | None
 
 
 @dataclass(frozen=True)
@@ -172,7 +197,31 @@ def _make_window(run: Measurement, index: int) -> WindowRow:
         {name: int(count) for name, count in zip(OUTCOMES, counts, strict=True)},
         describe(calc_lateness(run, index).values), calc_drift(run, index), response, used,
         None if used is None else window.budget_ns - used,
-        None if response is None else window.length_ns - response.max,
+        None if response is None else window.length_ns - response.max, _make_use(run, index),
+    )  # fmt: skip
+
+
+def _make_use(run: Measurement, index: int) -> WindowUse | None:
+    """@return nothing if the program did not record it."""
+    switches = run.switches
+    if switches is None:
+        return None
+    rows = run.rows_of(index)
+    of_it = (run.opening_of_step >= rows.start) & (run.opening_of_step < rows.stop)
+    use, opening = switches.step_use[of_it], run.opening_of_step[of_it] - rows.start
+    count = rows.stop - rows.start
+    is_open = np.bincount(opening, weights=use["cpu_ns"] < 0, minlength=count) > 0
+    cpu = np.bincount(opening, weights=use["cpu_ns"], minlength=count).astype(np.int64)
+    ran = np.bincount(opening, minlength=count) > 0
+    core = run.table.windows[index].core
+    is_known = core < len(switches.cores) and switches.cores[core].is_known
+    instead = switches.window_use[rows]
+    longest = int(np.argmax(instead["own_ns"] + instead["outside_ns"])) if len(instead) else 0
+    thread = int(instead["thread"][longest]) if is_known and len(instead) else 0
+    return WindowUse(
+        describe(cpu[ran & ~is_open]), int(use["voluntary"].sum()), int(use["involuntary"].sum()),
+        int(instead["own_ns"].sum()) if is_known else None, int(instead["outside_ns"].sum()) if is_known else None,
+        switches.name(thread, 0) if thread else "",
     )  # fmt: skip
 
 
@@ -203,6 +252,7 @@ class _StepIndex:
     """Steps sorted by the row of their window instance, and steps longer than the period of their window. This makes the evaluation fast
     even if every window of a run overruns."""
 
+    numbers: Array
     steps: Array
     rows: Array
     long_steps: Array
@@ -215,6 +265,11 @@ class _StepIndex:
         long_begin, long_end = np.searchsorted(self.long_rows, [first, row])
         return np.concatenate((self.long_steps[max(long_begin, long_end - 1) : long_end], self.steps[begin:end]))
 
+    def get_numbers(self, row: int) -> Array:
+        """Indices in `Measurement.steps` of the steps of window instance `row`, in order of time."""
+        begin, end = np.searchsorted(self.rows, [row, row + 1])
+        return self.numbers[begin:end]
+
     def list_components(self, row: int) -> set[int]:
         """Components with a step in window instance `row`."""
         begin, end = np.searchsorted(self.rows, [row, row + 1])
@@ -226,7 +281,7 @@ def _index_steps(run: Measurement) -> _StepIndex:
     steps, rows = run.steps[order], run.opening_of_step[order]
     period = np.array([window.period_ns for window in run.table.windows])[run.openings["window"][rows]]
     is_long = (steps["end_ns"] == NOT_BACK) | (steps["end_ns"] >= steps["release_ns"] + period)
-    return _StepIndex(steps, rows, steps[is_long], rows[is_long])
+    return _StepIndex(order, steps, rows, steps[is_long], rows[is_long])
 
 
 def _make_miss(run: Measurement, index: _StepIndex, row: int) -> Miss:
@@ -235,19 +290,31 @@ def _make_miss(run: Measurement, index: _StepIndex, row: int) -> Miss:
     release, late = int(opening["release_ns"]), int(opening["woke_ns"] - opening["release_ns"])
     cycle = release // run.table.frame_ns
     if opening["outcome"] == MISSED:
-        return Miss(cycle, release, window.name, OUTCOMES[MISSED], None, late, "released after its planned close", True)
-    name, reason, is_host = _find_guilty(run, index, row)
-    return Miss(cycle, release, window.name, OUTCOMES[OVERRUN], name, late, reason, is_host)
+        name, reason, cause, begun = None, "released after its planned close", judge_late(run, opening), row
+    else:
+        name, reason, begun = _find_guilty(run, index, row)
+        cause = _judge(run, index, begun)
+    if cause.verdict == COMPONENT and cause.by:
+        name = cause.by
+    text = f"{reason}: {cause.text}" if cause.text else reason
+    return Miss(cycle, release, window.name, OUTCOMES[int(opening["outcome"])], name, late, text, cause.verdict, cause.by,
+                int(run.openings["release_ns"][begun]) // run.table.frame_ns)  # fmt: skip
 
 
-def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | None, str, bool]:
-    """@return the component that had not returned at the deadline of an overrun (empty if none), what happened, and whether the host caused
-    it."""
+def _calc_deadline(run: Measurement, row: int) -> int:
+    """As in the executive, a late window keeps its budget, but not beyond its planned end."""
+    opening = run.openings[row]
+    window = run.table.windows[int(opening["window"])]
+    return min(int(opening["woke_ns"]) + window.budget_ns, int(opening["release_ns"]) + window.length_ns)
+
+
+def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | None, str, int]:
+    """@return the component that had not returned at the deadline of an overrun (empty if none), what happened, and the window instance in
+    which the work began."""
     opening = run.openings[row]
     number = int(opening["window"])
     window = run.table.windows[number]
-    # As in the executive, a late window keeps its budget, but not beyond its planned end.
-    deadline = min(int(opening["woke_ns"]) + window.budget_ns, int(opening["release_ns"]) + window.length_ns)
+    deadline = _calc_deadline(run, row)
     # Includes steps of earlier window instances: while work hangs, its window does not start again.
     steps = index.list_candidates(run.rows_of(number).start, row)
     late = steps[(steps["start_ns"] <= deadline) & ((steps["end_ns"] == NOT_BACK) | (steps["end_ns"] > deadline))]
@@ -256,22 +323,40 @@ def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | N
         end, name = int(step["end_ns"]), run.table.component_name(int(step["component"]))
         text = "never came back" if end == NOT_BACK else f"came back {(end - deadline) / 1e3:.1f} us after the deadline"
         if step["release_ns"] != opening["release_ns"]:
-            return name, f"{text}; it began in cycle {int(step['release_ns']) // run.table.frame_ns}", False
+            begun = run.rows_of(number).start + int(np.searchsorted(run.openings["release_ns"][run.rows_of(number)], step["release_ns"]))
+            return name, f"{text}; it began in cycle {int(step['release_ns']) // run.table.frame_ns}", begun
         given = deadline - int(opening["woke_ns"])
         if given < window.budget_ns and NOT_BACK != end <= deadline + window.budget_ns - given:
-            return name, f"{text}, which came {(window.budget_ns - given) / 1e3:.1f} us early: the window was released late", True
-        return name, text, False
+            return name, f"{text}, which came {(window.budget_ns - given) / 1e3:.1f} us early: the window was released late", row
+        return name, text, row
     ran = index.list_components(row)
+    before = steps[steps["release_ns"] < opening["release_ns"]]
+    if not ran and len(before) and opening["closed_ns"] < deadline:
+        # It ended without waiting for the deadline: earlier work had not returned when the window started, or only just.
+        step = before[-1]
+        begun = run.rows_of(number).start + int(np.searchsorted(run.openings["release_ns"][run.rows_of(number)], step["release_ns"]))
+        text = f"came back {(int(step['end_ns']) - int(opening['woke_ns'])) / 1e3:.1f} us after the window start"
+        return run.table.component_name(int(step["component"])), f"{text}; it began in cycle {int(step['release_ns']) // run.table.frame_ns}", begun
     waiting = [component for component in run.table.components_of(number) if component not in ran]
     if waiting:
-        return run.table.component_name(waiting[0]), "had not begun by the deadline: its thread did not get the processor", True
-    return None, "no step was late: the processor was taken between steps", True
+        return run.table.component_name(waiting[0]), "had not begun by the deadline: its thread did not get the processor", row
+    return None, "no step was late: the processor was taken between steps", row
+
+
+def _judge(run: Measurement, index: _StepIndex, row: int) -> Cause:
+    """Who caused the overrun of window instance `row`, by its own steps."""
+    chosen = index.get_numbers(row)
+    steps = run.steps[chosen]
+    deadline = _calc_deadline(run, row)
+    is_late = (steps["start_ns"] <= deadline) & ((steps["end_ns"] == NOT_BACK) | (steps["end_ns"] > deadline))
+    uses = None if run.switches is None else run.switches.step_use[chosen]
+    return judge_overrun(run, run.openings[row], steps, uses, deadline, int(np.argmax(is_late)) if is_late.any() else None)
 
 
 def list_findings(windows: list[WindowRow], components: list[ComponentRow], misses: list[Miss]) -> list[str]:
     """One line for each overrun that the code caused, each declared worst case that is too low, and each planned instant off the schedule.
 
-    Excludes windows that were skipped or shortened after a late release, because the host caused them.
+    Excludes what was caused outside the program.
     """
     findings = []
     for row in components:
@@ -279,12 +364,29 @@ def list_findings(windows: list[WindowRow], components: list[ComponentRow], miss
             findings.append(f"component '{row.component}': declared worst case {(row.declared_ns or 0) / 1e3:g} us, "
                             f"measured {row.execution.max / 1e3:g} us")  # fmt: skip
     for window in windows:
-        overran = [miss for miss in misses if miss.window == window.window and not miss.is_host]
+        overran = [miss for miss in misses if miss.window == window.window and miss.verdict == COMPONENT]
+        held = [miss for miss in misses if miss.window == window.window and miss.verdict == OWN_PROCESS]
+        if held:
+            findings.append(f"window '{window.window}': {len(held)} lost to other threads of the program, first in cycle {held[0].cycle}: "
+                            f"{held[0].reason}")  # fmt: skip
         if overran:
             findings.append(f"window '{window.window}': {len(overran)} overran, first in cycle {overran[0].cycle} by "
                             f"'{overran[0].component}', which {overran[0].reason}")  # fmt: skip
         if window.drift.planned_ns:
             findings.append(f"window '{window.window}': planned instants are up to {window.drift.planned_ns / 1e3:g} us off the schedule")
+    return findings
+
+
+def list_limit_findings(windows: list[WindowRow], misses: list[Miss], missed_max: int | None, late_ns_max: int | None) -> list[str]:
+    """Findings of --max-missed and --max-late, regardless of the cause. @param missed_max, late_ns_max: None for no limit."""
+    findings = []
+    if missed_max is not None and len(misses) > missed_max:
+        findings.append(f"--max-missed: {len(misses)} windows were skipped or cut short, at most {missed_max} are permitted; first in cycle "
+                        f"{misses[0].cycle}, window '{misses[0].window}', verdict {misses[0].verdict}")  # fmt: skip
+    for window in windows:
+        if late_ns_max is not None and window.lateness is not None and window.lateness.max > late_ns_max:
+            findings.append(f"--max-late: window '{window.window}' was late by up to {window.lateness.max / 1e3:g} us, at most "
+                            f"{late_ns_max / 1e3:g} us are permitted")  # fmt: skip
     return findings
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`./mamori timing SYSTEM`: check, build, run, read, analyse, show.
 
-@satisfies SWR-TIM-011, SWR-TIM-024, SWR-TIM-025, SWR-TIM-029      Design: docs/design/timing.md#run
+@satisfies SWR-TIM-011, SWR-TIM-024, SWR-TIM-025, SWR-TIM-029, SWR-TIM-045      Design: docs/design/timing.md#run
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import re
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -16,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mamori_tools.host.arguments import Command, add_jobs, at_least_one
+from mamori_tools.host.arguments import DIGITS_MAX, Command, add_jobs, at_least_one
 from mamori_tools.host.console import Screen
 from mamori_tools.host.environment import collect_environment
 from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_INTERRUPTED
@@ -26,8 +27,8 @@ from mamori_tools.host.project import ROOT, Project
 from mamori_tools.host.steps import Context, Step, all_passed, run_steps
 from mamori_tools.timing.baseline import Baseline, check_table, judge_ratios, list_ratios, load_baseline, write_baseline
 from mamori_tools.timing.environment import collect_setting, collect_state
-from mamori_tools.timing.reader import FILES, Measurement, read_measurement
-from mamori_tools.timing.report import Report, make_record, make_report, write_record
+from mamori_tools.timing.reader import FILES, SWITCH_FILES, Measurement, read_measurement
+from mamori_tools.timing.report import NO_LIMITS, Limits, Report, make_record, make_report, write_record
 from mamori_tools.timing.request_shift import check_requests
 from mamori_tools.timing.run import Ending, check_load, make_load, run_program, undisturbed
 from mamori_tools.timing.system import System, find_system
@@ -36,8 +37,8 @@ from mamori_trace.base.errors import InputError
 from mamori_trace.base.text_file import write_text
 
 CYCLES = 60_000
-RESULTS = ("timing.json", "timing.txt", *(f"{name}{suffix}" for name in ("release_lateness", "execution_time", "chain_latency")
-                                          for suffix in (".svg", ".png")))  # fmt: skip
+PICTURES = ("release_lateness", "execution_time", "chain_latency", "over_time")
+RESULTS = ("timing.json", "timing.txt", "timing.perfetto-trace", *(f"{name}{suffix}" for name in PICTURES for suffix in (".svg", ".png")))
 PROBE_S = 20.0
 """If cycle plus start take longer, the program does not run in real time."""
 TAIL_LINES = 10
@@ -57,6 +58,7 @@ class Request:
     accept: Path | None = None
     arguments: tuple[str, ...] = ()
     wants_json: bool = False
+    limits: Limits = NO_LIMITS
 
 
 @dataclass(frozen=True)
@@ -131,7 +133,7 @@ def check_folder(folder: Path, command: str = "timing") -> None:
 def _prepare_folder(job: Job) -> None:
     """Removes earlier results, so that none of them counts for this run. @raise InputError."""
     try:
-        for path in [*(job.folder / name for name in RESULTS), job.log, *(job.data / name for name in FILES)]:
+        for path in [*(job.folder / name for name in RESULTS), job.log, *(job.data / name for name in (*FILES, *SWITCH_FILES))]:
             path.unlink(missing_ok=True)
         job.data.mkdir(exist_ok=True)
         job.log.write_text("", encoding="utf-8")
@@ -200,7 +202,8 @@ def _conclude(job: Job, ending: Ending, problems: Sequence[str], host: dict[str,
         show_failure(job.context.screen, ending.reason or "stopped before there was anything to keep", job.log)
         job.context.screen.say(f"nothing to analyse: {error}")
         return EXIT_INTERRUPTED if ending.was_stopped else EXIT_FAILED
-    report = make_report(job.system.name, run, host, job.request.with_load, ending.was_stopped, [*findings, *_judge(job, run)])
+    report = make_report(job.system.name, run, host, job.request.with_load, ending.was_stopped, [*findings, *_judge(job, run)],
+                         job.request.limits)  # fmt: skip
     return show(job, report)
 
 
@@ -225,6 +228,9 @@ def show(job: Job, report: Report) -> int:
     from mamori_tools.timing.picture import draw_report
 
     paths += draw_report(report, job.folder)
+    from mamori_tools.timing.trace_file import FILE, write_trace
+
+    paths.append(write_trace(job.folder / FILE, report.system, report.run, report.misses))
     screen.say(f"results: {job.folder}: {', '.join(path.name for path in paths)}")
     if job.request.accept is not None:
         _accept(job, report, job.request.accept)
@@ -274,23 +280,43 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="end with status 1 when the ratio of a component to the reference work exceeds the limit in this file")  # fmt: skip
     parser.add_argument("--accept", type=Path, metavar="BASELINE",
                         help="write the ratios of this run to this file, if there are no findings; not together with --check")  # fmt: skip
+    parser.add_argument("--max-missed", type=_missed, metavar="N",
+                        help="end with status 1 when more than N windows were skipped or cut short, from any cause")  # fmt: skip
+    parser.add_argument("--max-late", type=_microseconds, metavar="US",
+                        help="end with status 1 when a window started more than this many microseconds late, from any cause")  # fmt: skip
     parser.add_argument("--json", action="store_true", help="print the record as JSON instead of text")
     add_jobs(parser, "of the build")
+
+
+def _missed(text: str) -> int:
+    """Type of --max-missed."""
+    if not (text.isascii() and text.isdecimal()) or len(text) > DIGITS_MAX:
+        raise argparse.ArgumentTypeError(f"'{text[:DIGITS_MAX]}' is not an integer from 0 on with at most {DIGITS_MAX} digits")
+    return int(text)
+
+
+def _microseconds(text: str) -> int:
+    """Type of --max-late. @return [ns]."""
+    match = re.fullmatch(r"\d{1,12}(\.\d{1,3})?", text, re.ASCII)
+    value = round(float(text) * 1000) if match else 0
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"'{text[:20]}' is no positive number of microseconds with at most three decimals")
+    return value
 
 
 def run(arguments: argparse.Namespace) -> int:
     """@return exit status."""
     request = Request(arguments.system, arguments.cycles, arguments.out, arguments.load, arguments.requests, arguments.check,
-                      arguments.accept, arguments.passed_on, arguments.json)  # fmt: skip
+                      arguments.accept, arguments.passed_on, arguments.json, Limits(arguments.max_missed, arguments.max_late))  # fmt: skip
     return timing(request, arguments.jobs)
 
 
 COMMAND = Command(
     add_arguments, run, "run a system in real time: lateness, execution times, latencies and the responsible component",
     "Runs a system in real time. Shows release lateness, execution time and end-to-end latency for each window, component and event chain, "
-    "next to the values in virtual time. Shows each overrun and skipped window with its cycle and the responsible component, and the margins "
-    "of budgets. Writes timing.json, timing.txt and pictures. ARGUMENTS are passed on to the program.",
-    {0: "measured", 1: "a finding (overrun, declared worst case exceeded, --requests, --check, program failed)",
+    "next to the values in virtual time. Shows each overrun and skipped window with its cycle and its cause (a component, another thread of "
+    "the program, or outside), and the margins of budgets. Writes timing.json, timing.txt and pictures. ARGUMENTS are passed on to the program.",
+    {0: "measured", 1: "a finding (overrun, declared worst case exceeded, --requests, --check, --max-missed, --max-late, program failed)",
      4: "measured without all real-time privileges", 130: "stopped by Ctrl-C; the measurements so far are kept and marked partial"},
     usage_end="[-- ARGUMENTS]",
     examples=("timing examples/safe_arm --cycles 10000 --load",))  # fmt: skip

@@ -22,6 +22,7 @@ from mamori_tools.timing.analysis import calc_execution, calc_lateness
 from mamori_tools.timing.reader import Array
 from mamori_tools.timing.report import Report
 from mamori_tools.timing.text import format_us, make_printable, shorten
+from mamori_tools.timing.time_picture import make_time_figure
 from mamori_trace.base.whole_file import whole_file
 
 # All readers can distinguish these, also in grey: measurement, limit, and additional lines.
@@ -67,7 +68,8 @@ def draw_report(report: Report, folder: Path) -> list[Path]:
         measured = [row for row in rows if len(row.values)]
         if measured:
             paths += _save(make_figure(title, measured, _make_subtitle(report), report.marks), folder, name)
-    return paths
+    figure = make_time_figure(report.run, report.windows, report.misses, _make_subtitle(report), report.marks)
+    return [*paths, *_save(figure, folder, "over_time")]
 
 
 def _list_lateness(report: Report) -> list[Row]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the four files of a measured run as checked arrays. The parts of a `Measurement` are consistent.
+"""Reads the files of a measured run as checked arrays. The parts of a `Measurement` are consistent.
 
 @satisfies SWR-TIM-010, SWR-TIM-011, SWR-TIM-028      Design: docs/design/timing.md#files
 """
@@ -14,12 +14,15 @@ from typing import Any
 import numpy as np
 
 from mamori_tools.table.document import Table, read_table
+from mamori_tools.timing.switches import SLICE, STEP_USE, WINDOW_USE, State, Switches, read_states, read_switches
 from mamori_trace.base.errors import InputError
 from mamori_trace.base.json_node import JsonNode
 from mamori_trace.base.text_file import read_text
 
 SCHEMA = "mamori.timing_run/1"
 FILES = ("table.json", "openings.npy", "steps.npy", "run.json")
+SWITCH_FILES = ("window_use.npy", "step_use.npy", "slices.npy")
+"""Only of programs whose run.json has `switches`."""
 RIGHTS = ("priority", "processor", "memory")
 COMPLETED, OVERRUN, MISSED, STOPPED, NOT_DUE = range(5)
 OUTCOMES = ("completed", "overrun", "missed", "stopped", "not due")
@@ -77,6 +80,10 @@ class Measurement:
     findings: tuple[str, ...] = ()
     """Findings that the program itself reports, for example that its system left the operating state."""
     requests: Requests | None = None
+    switches: Switches | None = None
+    """Nothing for a program that was built with an earlier version."""
+    states: tuple[State, ...] = ()
+    """States of the system; empty if it has none."""
 
     def rows_of(self, window: int) -> slice:
         """The instances of one window, in order of time."""
@@ -97,16 +104,32 @@ def read_measurement(folder: Path) -> Measurement:
     asked, done, is_partial, reference = _read_run(run, table)
     rights = tuple(read_right(name, run.at("rights").at(name)) for name in RIGHTS)
     openings = read_rows(folder / "openings.npy", OPENING, "openings")
-    openings = openings[np.lexsort((openings["release_ns"], openings["window"]))]
+    order = np.lexsort((openings["release_ns"], openings["window"]))
+    openings = openings[order]
     _check_openings(openings, table, folder / "openings.npy")
     _check_counts(openings, table, done, folder / "openings.npy")
     steps = read_rows(folder / "steps.npy", STEP, "steps")
     check_steps(steps, table, folder / "steps.npy")
-    steps, opening_of_step, notes = _match_steps(steps, openings, table, is_partial, folder / "steps.npy")
+    count = len(steps)
+    steps, opening_of_step, kept, notes = _match_steps(steps, openings, table, is_partial, folder / "steps.npy")
     own = tuple(f"the program: {note.text()}" for note in run.at("notes").items())
     findings = tuple(f"the program: {finding.text()}" for finding in run.at("findings").items()) if run.has("findings") else ()
+    switches = _read_switches(folder, run.at("switches"), order, kept, count, len(table.windows)) if run.has("switches") else None
+    states = read_states(run.at("states"), switches.window_use) if switches is not None and run.has("states") else ()
     return Measurement(table, openings, steps, opening_of_step, asked, done, is_partial, reference, rights, (*own, *notes), findings,
-                       _read_requests(run.at("requests"), openings, table) if run.has("requests") else None)  # fmt: skip
+                       _read_requests(run.at("requests"), openings, table) if run.has("requests") else None,
+                       switches, states)  # fmt: skip
+
+
+def _read_switches(folder: Path, node: JsonNode, order: Array, kept: Array, step_count: int, windows: int) -> Switches:
+    window_use = read_rows(folder / "window_use.npy", WINDOW_USE, "uses of windows")
+    step_use = read_rows(folder / "step_use.npy", STEP_USE, "uses of steps")
+    for rows, wanted, other in ((window_use, len(order), "openings.npy"), (step_use, step_count, "steps.npy")):
+        if len(rows) != wanted:
+            name = "window_use.npy" if rows is window_use else "step_use.npy"
+            raise InputError(f"holds {len(rows)} rows, {other} holds {wanted}; {HOW_TO_MEND}", folder / name)
+    slices = read_rows(folder / "slices.npy", SLICE, "slices")
+    return read_switches(node, slices, window_use[order], step_use[kept], windows)
 
 
 def load_json(path: Path) -> object:
@@ -225,10 +248,10 @@ def check_steps(rows: Array, table: Table, path: Path, by_clock: bool = True) ->
         _refuse_first(homeless[rows["component"]], rows, path, "are of a component that no window runs")
 
 
-def _match_steps(steps: Array, openings: Array, table: Table, is_partial: bool, path: Path) -> tuple[Array, Array, tuple[str, ...]]:
-    """@return steps with a window instance, its row for each, and a note on steps of a stopped run without one."""
+def _match_steps(steps: Array, openings: Array, table: Table, is_partial: bool, path: Path) -> tuple[Array, Array, Array, tuple[str, ...]]:
+    """@return steps with a window instance, its row for each, which of all steps they are, and a note on steps of a stopped run without one."""
     if not len(steps):
-        return steps, np.zeros(0, dtype=np.int64), ()
+        return steps, np.zeros(0, dtype=np.int64), np.zeros(0, dtype=bool), ()
     window_of = np.array([-1 if component.window is None else component.window for component in table.components], dtype=np.int64)
     window = window_of[steps["component"]]
     span = max(int(openings["release_ns"].max()), int(steps["release_ns"].max())) + 1
@@ -243,6 +266,6 @@ def _match_steps(steps: Array, openings: Array, table: Table, is_partial: bool, 
         unfinished = lost & (steps["release_ns"] > openings["release_ns"][last])
         _refuse_first(lost & ~unfinished, steps, path, "belong to no opening")
         notes = (f"{int(lost.sum())} steps left out: the run was stopped before their window was over",) if lost.any() else ()
-        return steps[~lost], row[~lost], notes
+        return steps[~lost], row[~lost], ~lost, notes
     _refuse_first(lost, steps, path, "belong to no opening")
-    return steps, row, ()
+    return steps, row, ~lost, ()

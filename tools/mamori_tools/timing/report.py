@@ -23,6 +23,7 @@ from mamori_tools.timing.analysis import (
     list_components,
     list_drift_notes,
     list_findings,
+    list_limit_findings,
     list_misses,
     list_windows,
 )
@@ -32,6 +33,7 @@ from mamori_tools.timing.environment import calc_steal_share
 from mamori_tools.timing.evt import Estimate, estimate
 from mamori_tools.timing.reader import Measurement
 from mamori_tools.timing.request_shift import ShiftRow, list_shift_findings, list_shifts
+from mamori_tools.timing.states import StateComponent, StateRow, list_state_components, list_state_findings, list_state_notes, list_states
 from mamori_trace.base.text_file import write_text
 
 SCHEMA = "mamori.timing/1"
@@ -54,6 +56,8 @@ class Report:
     chains: Sequence[ChainRow]
     chain_note: str
     shifts: Sequence[ShiftRow]
+    states: Sequence[StateRow]
+    state_components: Sequence[StateComponent]
     estimates: Sequence[Estimate]
     findings: Sequence[str]
     notes: Sequence[str]
@@ -67,8 +71,8 @@ class Report:
 
     @property
     def host_misses(self) -> list[Miss]:
-        """Window instances that the host lost: released too late, or without processor time."""
-        return [miss for miss in self.misses if miss.is_host]
+        """Window instances that were not lost to the program."""
+        return [miss for miss in self.misses if not miss.is_of_code]
 
     @property
     def status(self) -> int:
@@ -91,17 +95,30 @@ class Report:
         return marks
 
 
-def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: bool, was_stopped: bool, findings: Sequence[str]
-                ) -> Report:  # fmt: skip
+@dataclass(frozen=True)
+class Limits:
+    """Limits of --max-missed and --max-late; None for no limit."""
+
+    missed: int | None = None
+    late_ns: int | None = None
+
+
+NO_LIMITS = Limits()
+
+
+def make_report(system: str, run: Measurement, host: dict[str, Any], with_load: bool, was_stopped: bool, findings: Sequence[str],
+                limits: Limits = NO_LIMITS) -> Report:  # fmt: skip
     """Analyses `run`. @param findings known findings that are not in its files."""
     windows, components, misses = list_windows(run), list_components(run), list_misses(run)
     (chains, chain_note), shifts = list_chains(run), list_shifts(run)
     indices = [index for index, one in enumerate(run.table.components) if one.window is not None]
     estimates = [estimate(calc_execution(run, index)[0].values, count_cut(run, index)) for index in indices]
     early = [] if was_stopped or not run.is_partial else [f"the program ended after {run.cycles_run} of {run.cycles_asked} cycles"]
-    found = [*findings, *early, *run.findings, *list_findings(windows, components, misses), *list_violations(chains),
+    found = [*findings, *early, *run.findings, *list_state_findings(run), *list_findings(windows, components, misses),
+             *list_limit_findings(windows, misses, limits.missed, limits.late_ns), *list_violations(chains),
              *list_shift_findings(run, shifts)]  # fmt: skip
-    return Report(system, run, windows, components, misses, chains, chain_note, shifts, estimates, found, [*run.notes, *list_drift_notes(windows)],
+    return Report(system, run, windows, components, misses, chains, chain_note, shifts, list_states(run), list_state_components(run), estimates,
+                  found, [*run.notes, *list_drift_notes(windows), *list_state_notes(run)],
                   host, with_load, was_stopped)  # fmt: skip
 
 
@@ -130,11 +147,13 @@ def make_record(report: Report, environment: dict[str, object]) -> dict[str, Any
             {**asdict(row), "extreme_values": _make_estimate(one)} for row, one in zip(report.components, report.estimates, strict=True)
         ],
         "ratios": ratios,
+        "states": [asdict(row) for row in report.states],
+        "state_components": [asdict(row) for row in report.state_components],
         "chains": [_make_chain(row) for row in report.chains],
         "chain_note": report.chain_note,
         "requests": None if run.requests is None else {**asdict(run.requests), "windows": [asdict(row) for row in report.shifts]},
         "miss_count": len(report.misses),
-        "misses": [asdict(miss) for miss in report.misses[:MISSES_STORED]],
+        "misses": [{**asdict(miss), "is_host": not miss.is_of_code} for miss in report.misses[:MISSES_STORED]],
     }
 
 

@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 
 from mamori_tools.timing.analysis import ComponentRow, Distribution
@@ -13,6 +14,7 @@ from mamori_tools.timing.evt import Estimate
 from mamori_tools.timing.power import describe_power
 from mamori_tools.timing.reader import MISSED, OUTCOMES, PACES
 from mamori_tools.timing.report import MISSES_STORED, Report
+from mamori_tools.timing.verdict import NOT_KNOWN
 
 MISSES_SHOWN = 5
 CHAINS_SHOWN = 6
@@ -24,7 +26,9 @@ FINDINGS_SHOWN = 8
 
 def make_text(report: Report, is_whole: bool) -> str:
     """@param is_whole all rows and reasons; otherwise the rows that fit on a screen, and a note about the rest."""
-    parts = [_make_head(report), _make_windows(report, is_whole), _make_components(report, is_whole), _make_chains(report, is_whole),
+    parts = [_make_head(report), _make_windows(report, is_whole), _make_uses(report, is_whole), _make_components(report, is_whole),
+             _make_states(report, is_whole), _make_state_components(report, is_whole),
+             _make_chains(report, is_whole),
              _make_shifts(report, is_whole), _make_misses(report, is_whole), _make_estimates(report, is_whole), _make_verdict(report, is_whole)]  # fmt: skip
     return make_printable("\n\n".join("\n".join(part) for part in parts if part) + "\n")
 
@@ -60,9 +64,42 @@ def _make_windows(report: Report, is_whole: bool) -> list[str]:
     return _cut([head, *rows], is_whole)
 
 
+def _make_uses(report: Report, is_whole: bool) -> list[str]:
+    """Who used the processor; empty for a program that does not record it."""
+    rows = []
+    for one in report.windows:
+        if one.use is not None:
+            rows.append((one.window, *_format_quantiles(one.use.cpu, ("p50", "max")), str(one.use.voluntary), str(one.use.involuntary),
+                         format_us(one.use.own_ns), format_us(one.use.outside_ns), one.use.longest_by or "-"))  # fmt: skip
+    if not rows:
+        return []
+    refused = [f"processor of core {index}: its switches were refused ({os.strerror(core.errno)}); causes outside a component are not known"
+               for index, core in enumerate(report.run.switches.cores if report.run.switches else ()) if not core.is_known]  # fmt: skip
+    head = ("window", "CPU p50", "max", "waits", "preempted", "own threads", "outside", "longest by")
+    return [*_cut([head, *rows], is_whole), *refused]
+
+
 def _make_components(report: Report, is_whole: bool) -> list[str]:
     head = ("component", "window", "runs", "min", "p50", "p99", "p99.9", "max", "declared", "margin", "ratio p50", "not back")
     return _cut([head, *(_make_component(row, report.run.reference_ns) for row in report.components)], is_whole)
+
+
+def _make_states(report: Report, is_whole: bool) -> list[str]:
+    if not report.states:
+        return []
+    head = ("state", "operating", "window", "instances", "late p50", "max", "response p50", "max")
+    rows = [(one.state, "yes" if one.is_operating else "no", one.window, str(one.count), *_format_quantiles(one.lateness, ("p50", "max")),
+             *_format_quantiles(one.response, ("p50", "max"))) for one in report.states]  # fmt: skip
+    return _cut([head, *rows], is_whole)
+
+
+def _make_state_components(report: Report, is_whole: bool) -> list[str]:
+    """Only in the complete text."""
+    if not report.state_components or not is_whole:
+        return []
+    rows = [(one.state, one.component, str(one.execution.count), *_format_quantiles(one.execution, ("min", "p50", "p99", "max")))
+            for one in report.state_components]  # fmt: skip
+    return format_columns([("state", "component", "runs", "min", "p50", "p99", "max"), *rows])
 
 
 def _make_component(row: ComponentRow, reference_ns: int) -> tuple[str, ...]:
@@ -119,8 +156,8 @@ def _make_misses(report: Report, is_whole: bool) -> list[str]:
     if not report.misses:
         return ["misses: none"]
     chosen = report.misses[: MISSES_STORED if is_whole else MISSES_SHOWN]
-    rows = [(str(one.cycle), one.window, one.outcome, one.component or "-", format_us(one.late_ns), one.reason) for one in chosen]
-    lines = format_columns([("cycle", "window", "outcome", "guilty", "late", "what happened"), *rows])
+    rows = [(str(one.cycle), one.window, one.outcome, one.verdict, one.component or "-", format_us(one.late_ns), one.reason) for one in chosen]
+    lines = format_columns([("cycle", "window", "outcome", "verdict", "component", "late", "what happened"), *rows])
     if len(chosen) < len(report.misses):
         lines.append(f"and {len(report.misses) - len(chosen)} more{'' if is_whole else ': timing.txt'}")
     return lines
@@ -146,9 +183,10 @@ def _make_verdict(report: Report, is_whole: bool) -> list[str]:
     lines = []
     if lost := report.host_misses:
         missed = sum(miss.outcome == OUTCOMES[MISSED] for miss in lost)
-        lines.append(f"lost to the host: {missed} openings missed and {len(lost) - missed} cut short, late by up to "
+        unknown = sum(miss.verdict == NOT_KNOWN for miss in lost)
+        lines.append(f"lost outside the program: {missed} windows skipped and {len(lost) - missed} cut short, late by up to "
                      f"{format_us(max(miss.late_ns for miss in lost))} us, steal {100 * report.steal_share:.2f} % of all processor time; "
-                     "no finding of the code")  # fmt: skip
+                     f"no finding of the code{f' ({unknown} of them not known)' if unknown else ''}")  # fmt: skip
     lines += [f"note: {note}" for note in report.notes]
     shown = report.findings if is_whole else report.findings[:FINDINGS_SHOWN]
     lines += [f"finding: {text}" for text in shown]

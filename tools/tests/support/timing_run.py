@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from mamori_tools.timing.reader import OPENING, STEP
+from mamori_tools.timing.switches import NO_STATE, SLICE, STEP_USE, WINDOW_USE
 
 REFERENCE_NS = 1_000
 US = 1_000
@@ -80,6 +81,27 @@ def make_run(table: dict[str, Any], asked: int, done: int, refused: Sequence[str
 def make_requests(count: int = 1_000) -> dict[str, Any]:
     """The key `requests` of run.json, for the blocks of 200 cycles."""
     return {"block_cycles": 20, "count": count, "paces": [0, 0, 1, 2, 1, 2, 0, 2, 0, 1]}
+
+
+def make_switches(threads: Sequence[dict[str, Any]] = (), windows: int = 1, errno: int = 0, continued_ns: Sequence[int] = ()) -> dict[str, Any]:
+    """The key `switches` of run.json: one core, whose runner is thread 11 and whose windows have the threads 20, 21, ..."""
+    core = {"right": {"is_granted": errno == 0, "errno": errno}, "processor": 0, "runner": 11,
+            "window_threads": [20 + window for window in range(windows)], "lost": 0}  # fmt: skip
+    own = [{"thread": 11, "process": 10, "kind": 0, "priority": 80, "name": "runner"},
+           *({"thread": 20 + window, "process": 10, "kind": 0, "priority": 70, "name": ""} for window in range(windows))]  # fmt: skip
+    return {"cores": [core], "threads": [*own, *threads], "continued_ns": list(continued_ns)}
+
+
+def write_switches(folder: Path, openings: int, step_use: Sequence[tuple[int, int, int]], slices: Sequence[tuple[int, ...]],
+                   states: Sequence[int] = ()) -> None:  # fmt: skip
+    """@param states of the window instances; none if empty.
+    @param step_use CPU time [ns], voluntary, involuntary switches.
+    @param slices begin [ns], end [ns], thread, process, left."""
+    window_use = np.zeros(openings, WINDOW_USE)
+    window_use["state"] = states if states else NO_STATE
+    np.save(folder / "window_use.npy", window_use)
+    np.save(folder / "step_use.npy", np.array(list(step_use), STEP_USE))
+    np.save(folder / "slices.npy", np.array([(begin, end, 0, *rest) for begin, end, *rest in slices], SLICE))
 
 
 def write_run(folder: Path, table: dict[str, Any], openings: np.ndarray[Any, Any], steps: np.ndarray[Any, Any], run: dict[str, Any]) -> Path:

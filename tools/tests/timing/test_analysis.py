@@ -22,6 +22,7 @@ from mamori_tools.timing.analysis import (
     list_windows,
 )
 from mamori_tools.timing.reader import COMPLETED, MISSED, NOT_BACK, NOT_DUE, OPENING, OVERRUN, STEP, Measurement, read_measurement
+from mamori_tools.timing.verdict import COMPONENT, NOT_KNOWN
 
 TABLE = make_table(windows=(("work", 0, 100, 300, 1000, 200),), components=(("first", 0, 50, 0), ("second", 0, None, 0)),
                    connections=((0, 1, "same_window"),))  # fmt: skip
@@ -157,8 +158,8 @@ def test_step_that_ends_on_the_deadline_is_not_the_guilty_one(rows: Rows, tmp_pa
 
 
 @pytest.mark.verifies("SWR-TIM-014", technique="error_guessing")
-@pytest.mark.parametrize(("end", "is_host"), [(450, True), (451, False), (None, False)])
-def test_deadline_of_a_late_window_is_its_planned_close(rows: Rows, tmp_path: Path, end: int | None, is_host: bool) -> None:
+@pytest.mark.parametrize(("end", "verdict"), [(450, NOT_KNOWN), (451, COMPONENT), (None, COMPONENT)])
+def test_deadline_of_a_late_window_is_its_planned_close(rows: Rows, tmp_path: Path, end: int | None, verdict: str) -> None:
     rows.openings[2] = [250, 301, OVERRUN]  # the complete budget would have lasted until 450 us
     rows.steps[2] = [(2, 0, 0, 252, 290), (2, 1, 0, 291, end)]
     rows.steps[3] = [] if end is None else rows.steps[3]
@@ -166,9 +167,9 @@ def test_deadline_of_a_late_window_is_its_planned_close(rows: Rows, tmp_path: Pa
     run = rows.read(tmp_path)
     miss = list_misses(run)[0]
 
-    assert (miss.component, miss.is_host) == ("second", is_host)
-    assert ("which came 150.0 us early: the window was released late" in miss.reason) == is_host
-    assert bool(list_findings(list_windows(run), [], [miss])) != is_host
+    assert (miss.component, miss.verdict) == ("second", verdict)
+    assert ("which came 150.0 us early: the window was released late" in miss.reason) == (verdict == NOT_KNOWN)
+    assert bool(list_findings(list_windows(run), [], [miss])) == (verdict == COMPONENT)
 
 
 @pytest.mark.verifies("SWR-TIM-014", technique="error_guessing")
@@ -178,7 +179,7 @@ def test_component_that_had_not_begun_is_named_when_no_step_was_late(rows: Rows,
 
     miss = list_misses(rows.read(tmp_path))[0]
 
-    assert miss.is_host
+    assert miss.verdict == NOT_KNOWN
     assert (miss.component, miss.reason) == ("second", "had not begun by the deadline: its thread did not get the processor")
 
 
@@ -188,7 +189,7 @@ def test_nobody_is_named_when_all_steps_were_in_time(rows: Rows, tmp_path: Path)
 
     miss = list_misses(rows.read(tmp_path))[0]
 
-    assert (miss.component, miss.is_host) == (None, True)
+    assert (miss.component, miss.verdict) == (None, NOT_KNOWN)
 
 
 @pytest.mark.verifies("SWR-TIM-014", polarity="violation")

@@ -95,8 +95,40 @@ def test_late_release_is_told_with_the_steal_and_is_no_finding(program: Path, ca
     assert measure(program, fault="missed") == 0
 
     said = capsys.readouterr().out
-    assert "lost to the host: 1 openings missed and 0 cut short, late by up to 450 us, steal" in said
+    assert "lost outside the program: 1 windows skipped and 0 cut short, late by up to 450 us, steal" in said
     assert load_record(program)["misses"][0]["outcome"] == "missed"
+
+
+@pytest.mark.verifies("SWR-TIM-045")
+def test_run_within_the_limits_of_the_user_ends_with_0(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert measure(program, own=("--max-missed", "1", "--max-late", "450"), fault="missed") == 0
+
+    assert "findings: 0" in capsys.readouterr().out
+
+
+@pytest.mark.verifies("SWR-TIM-045", polarity="violation")
+@pytest.mark.parametrize(("own", "status", "said"), [
+    (("--max-missed", "0"), 1, "--max-missed: 1 windows were skipped or cut short, at most 0 are permitted; first in cycle 13, window 'control'"),
+    (("--max-late", "449.999"), 1, "--max-late: window 'control' was late by up to 450 us, at most 449.999 us are permitted"),
+])  # fmt: skip
+def test_limits_of_the_user_end_with_1(program: Path, capsys: pytest.CaptureFixture[str], own: tuple[str, ...], status: int, said: str) -> None:
+    assert measure(program, own=own, fault="missed") == status
+
+    assert said in capsys.readouterr().out
+
+
+@pytest.mark.verifies("SWR-TIM-045", technique="boundary_values", polarity="violation")
+@pytest.mark.parametrize(("words", "said"), [
+    (["--max-missed", "-1"], "'-1' is not an integer from 0 on"),
+    (["--max-missed", "1.5"], "'1.5' is not an integer from 0 on"), (["--max-missed", "1" * 13], "at most 12 digits"),
+    (["--max-late", "0"], "'0' is no positive number of microseconds"), (["--max-late", "nan"], "'nan' is no positive number"),
+    (["--max-late", "1e3"], "'1e3' is no positive number"), (["--max-late", "1.0005"], "at most three decimals"),
+])  # fmt: skip
+def test_limits_that_are_no_numbers_end_with_2(program: Path, capsys: pytest.CaptureFixture[str], words: list[str], said: str) -> None:
+    assert measure(program, own=tuple(words)) == 2
+
+    told = capsys.readouterr().err
+    assert said in told and len(told.splitlines()) == 1
 
 
 @pytest.mark.verifies("SWR-TIM-025", polarity="violation")

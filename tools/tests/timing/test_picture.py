@@ -35,7 +35,7 @@ def count_rows(rows: list[Row]) -> tuple[int, list[str]]:
 def test_each_picture_is_written_twice_with_marks_limits_and_units(report: Report, tmp_path: Path) -> None:
     names = [path.name for path in draw_report(report, tmp_path)]
 
-    assert names == [f"{name}{suffix}" for name in ("release_lateness", "execution_time", "chain_latency") for suffix in (".svg", ".png")]
+    assert names == [f"{name}{suffix}" for name in ("release_lateness", "execution_time", "chain_latency", "over_time") for suffix in (".svg", ".png")]
     svg = (tmp_path / "execution_time.svg").read_text(encoding="utf-8")
     texts = re.findall(r"<!-- (.*?) -->", svg)
     for wanted in ("PARTIAL: stopped after 50 of 80 cycles", "WITHOUT REAL-TIME RIGHTS: refused: priority (Operation not permitted)",

@@ -27,6 +27,7 @@ PICTURES = (
     ("release_lateness", "How late each window was released, and how often later than that"),
     ("execution_time", "How long each component ran, and how often longer than that"),
     ("chain_latency", "From sample to effect along each chain, and how often longer than that"),
+    ("over_time", "Lateness and response of each window over the time of the run, and each loss with its verdict"),
 )
 PICTURES_BYTES_MAX = 700_000
 """Maximum size of all pictures in the page, so that it stays small for any number of systems."""
@@ -252,7 +253,7 @@ def _make_misses(record: dict[str, Any]) -> Table:
     def make(row: dict[str, Any]) -> list[Cell]:
         return [
             Cell(str(row["cycle"])), Cell(row["window"], is_name=True), Cell(row["outcome"]),
-            Cell("host" if row["is_host"] else "code", is_bad=not row["is_host"]), Cell(row["component"] or ABSENT, is_name=True),
+            Cell(row.get("verdict", "host" if row["is_host"] else "code"), is_bad=not row["is_host"]), Cell(row["component"] or ABSENT, is_name=True),
             make_time(row["late_ns"]), Cell(row["reason"], is_long=True),
         ]  # fmt: skip
 

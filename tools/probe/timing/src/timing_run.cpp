@@ -21,6 +21,7 @@
 #include "mamori/timing/introspection_load.hpp"
 #include "mamori/timing/measuring_host.hpp"
 #include "reference_work.hpp"
+#include "thread_list.hpp"
 #include "write_run.hpp"
 
 namespace mamori::timing {
@@ -38,6 +39,8 @@ constexpr Duration kLead{500'000'000};
 /// Time limit for the return of work that was aborted at the end of the run.
 constexpr Duration kPatience{1'000'000'000};
 constexpr Duration kPoll{5'000'000};
+/// Slices that are kept per core: 4 MB.
+constexpr std::size_t kSliceCapacity = 100'000U;
 /// Windows run below the priority of the thread that guards them.
 constexpr int kPriorityGap = 10;
 /// Steps of mode switches and late stops do not belong to a cycle.
@@ -90,7 +93,8 @@ struct CoreSession {
                 IntrospectionLoad* load, Duration block)
         : log{rows},
           guard{core.threads, clock, place},
-          host{guard, log, core.executive.get_view().windows.size(), core.devices},
+          switches{kSliceCapacity},
+          host{guard, log, core.executive.get_view().windows.size(), core.devices, &switches},
           runner{core.executive, host, clock},
           control{host, runner, load, block} {
         runner.set_observer(&control);
@@ -98,11 +102,15 @@ struct CoreSession {
 
     RunLog& log;
     GuardedHost guard;
+    SwitchLog switches;
     MeasuringHost host;
     CoreRunner runner;
     RunControl control;
     Right priority{};
     Right processor{};
+    Right switch_right{};
+    int processor_number{0};
+    std::size_t window_count{0U};  ///< windows
 };
 
 struct Session {
@@ -211,6 +219,9 @@ std::string check(const std::vector<TimedCore>& cores, const TimingOptions& opti
         return std::to_string(options.cycles) +
                " cycles need more memory than this machine has free: run fewer";
     }
+    if (options.states.empty() == static_cast<bool>(options.get_state)) {
+        return "TimingOptions::states and get_state belong together: set both or neither";
+    }
     if (options.with_requests && options.introspection == nullptr) {
         return "this program has no introspection for --requests: set TimingOptions::introspection";
     }
@@ -225,7 +236,9 @@ std::string check(const std::vector<TimedCore>& cores, const TimingOptions& opti
 void run_core(CoreSession& core, std::uint64_t cycles, ThreadPlace place) {
     core.priority = ports::posix_rt::set_priority(pthread_self(), place.priority);
     core.processor = ports::posix_rt::set_processor(pthread_self(), place.processor);
+    core.switches.take_runner();
     core.runner.run(cycles);
+    core.host.finish();
 }
 
 /// @return false if no threads are available for the windows; threads that were started have ended.
@@ -285,6 +298,26 @@ void run_all(Session& session, const TimingOptions& options, const std::vector<i
     join();
 }
 
+SwitchFacts collect_switches(const Session& session) {
+    SwitchFacts facts;
+    std::vector<const SwitchLog*> logs;
+    for (const std::unique_ptr<CoreSession>& core : session.cores) {
+        // The log is that of one processor, so it needs threads that do not leave it.
+        const Right bound = combine(core->processor, core->guard.get_processor_right());
+        CoreSwitches one{&core->switches, combine(core->switch_right, bound), core->processor_number, {}};
+        for (std::size_t window = 0U; window < core->window_count; ++window) {
+            one.window_threads.push_back(core->host.get_thread(window));
+        }
+        logs.push_back(&core->switches);
+        facts.cores.push_back(std::move(one));
+    }
+    facts.threads = list_threads(logs);
+    for (const std::int64_t instant : end_continuations()) {
+        facts.continued.push_back(Instant{instant - session.clock->get_epoch_ns()});
+    }
+    return facts;
+}
+
 RunFacts collect(const Session& session, const TimingOptions& options, Duration frame) {
     RunFacts facts;
     facts.asked_cycles = options.cycles;
@@ -306,6 +339,7 @@ RunFacts collect(const Session& session, const TimingOptions& options, Duration 
         facts.processor =
             combine(facts.processor, combine(core->processor, core->guard.get_processor_right()));
     }
+    facts.switches = collect_switches(session);
     if (session.load != nullptr) {
         facts.block_cycles = session.block_cycles;
         facts.request_count = session.load->get_request_count();
@@ -337,6 +371,13 @@ std::unique_ptr<Session> make_session(const std::vector<TimedCore>& cores, const
         session->cores.push_back(std::make_unique<CoreSession>(cores[i], *session->logs[i], *session->clock,
                                                                place, i == 0U ? session->load.get() : nullptr,
                                                                Duration{block_cycles * frame.ns}));
+        CoreSession& core = *session->cores.back();
+        if (options.get_state) {
+            core.host.set_state_source(options.get_state);
+        }
+        core.window_count = cores[i].executive.get_view().windows.size();
+        core.processor_number = processors[i];
+        core.switch_right = core.switches.open(processors[i], *session->clock);
     }
     return session;
 }
@@ -374,11 +415,16 @@ TimingResult measure(const std::vector<TimedCore>& cores, const TimingOptions& o
     if (!open_guards(*session, options.priority)) {
         return {TimingOutcome::kFailed, "no threads for the windows: raise the limit (ulimit -u)"};
     }
+    watch_continuations();
     run_all(*session, options, processors);
     const bool is_closed = close_guards(*session);
+    for (const std::unique_ptr<CoreSession>& core : session->cores) {
+        core->host.finish();
+    }
     RunFacts facts = collect(*session, options, view.frame);
     session->load.reset();  // it would outlive this function together with the hanging work
     facts.reference = reference;
+    facts.states = options.states;
     facts.memory = memory;
     if (options.tell_notes) {
         facts.notes = options.tell_notes();

@@ -45,8 +45,14 @@ std::string make_openings(const std::vector<const RunLog*>& logs) {
     return table.make();
 }
 
-/// Excludes steps that never began.
-std::string make_steps(const std::vector<const RunLog*>& logs) {
+/// steps.npy, and one row for each of them in step_use.npy. Both exclude steps that never began.
+struct StepFiles {
+    std::string steps;
+    std::string use;
+};
+
+StepFiles make_steps(const std::vector<const RunLog*>& logs) {
+    NpyTable use{{{"cpu_ns", 8U}, {"voluntary", 4U}, {"involuntary", 4U}}};
     NpyTable table{{{"release_ns", 8U}, {"start_ns", 8U}, {"end_ns", 8U}, {"component", 4U}, {"pass", 4U}}};
     for (const StepRow* row : merge<StepRow>(logs, [](const RunLog& log) { return log.get_steps(); })) {
         // In this order, because outstanding work may end in between, and an end requires a start.
@@ -58,6 +64,39 @@ std::string make_steps(const std::vector<const RunLog*>& logs) {
             table.add(end);
             table.add(static_cast<std::int64_t>(row->component));
             table.add(static_cast<std::int64_t>(row->pass));
+            const bool is_known = end != kNoInstant.ns;
+            use.add(is_known ? row->cpu_ns : kNoInstant.ns);
+            use.add(is_known ? row->voluntary : 0U);
+            use.add(is_known ? row->involuntary : 0U);
+        }
+    }
+    return {table.make(), use.make()};
+}
+
+/// One row for each of openings.npy.
+std::string make_window_use(const std::vector<const RunLog*>& logs) {
+    NpyTable table{{{"own_ns", 8U}, {"outside_ns", 8U}, {"thread", 4U}, {"state", 4U}}};
+    for (const OpeningRow* row :
+         merge<OpeningRow>(logs, [](const RunLog& log) { return log.get_openings(); })) {
+        table.add(row->use.own.ns);
+        table.add(row->use.outside.ns);
+        table.add(row->use.thread);
+        table.add(row->state);
+    }
+    return table.make();
+}
+
+std::string make_slices(const SwitchFacts& facts) {
+    NpyTable table{
+        {{"begin_ns", 8U}, {"end_ns", 8U}, {"core", 4U}, {"thread", 4U}, {"process", 4U}, {"left", 4U}}};
+    for (std::size_t core = 0U; core < facts.cores.size(); ++core) {
+        for (const Slice& slice : facts.cores[core].log->get_kept()) {
+            table.add(slice.begin.ns);
+            table.add(slice.end.ns);
+            table.add(static_cast<std::int64_t>(core));
+            table.add(slice.thread);
+            table.add(slice.process);
+            table.add(slice.is_preempted ? 0 : 1);
         }
     }
     return table.make();
@@ -105,6 +144,50 @@ std::string make_requests(const RunFacts& facts) {
            ", \"count\": " + std::to_string(facts.request_count) + ", \"paces\": [" + paces + "]}";
 }
 
+std::string make_core(const CoreSwitches& core) {
+    std::string threads;
+    for (const std::uint32_t thread : core.window_threads) {
+        threads += (threads.empty() ? "" : ", ") + std::to_string(thread);
+    }
+    return "{\"right\": " + make_right(core.right) + ", \"processor\": " + std::to_string(core.processor) +
+           ", \"runner\": " + std::to_string(core.log->get_runner()) + ", \"window_threads\": [" + threads +
+           "], \"lost\": " + std::to_string(core.log->get_lost_count()) + "}";
+}
+
+std::string make_thread(const NamedThread& thread) {
+    return "{\"thread\": " + std::to_string(thread.thread) +
+           ", \"process\": " + std::to_string(thread.process) +
+           ", \"kind\": " + std::to_string(static_cast<int>(thread.kind)) +
+           ", \"priority\": " + std::to_string(thread.priority) + ", \"name\": \"" + make_plain(thread.name) +
+           "\"}";
+}
+
+std::string make_switches(const SwitchFacts& facts) {
+    std::string cores;
+    for (const CoreSwitches& core : facts.cores) {
+        cores += (cores.empty() ? "" : ", ") + make_core(core);
+    }
+    std::string threads;
+    for (const NamedThread& thread : facts.threads) {
+        threads += (threads.empty() ? "" : ", ") + make_thread(thread);
+    }
+    std::string continued;
+    for (const Instant instant : facts.continued) {
+        continued += (continued.empty() ? "" : ", ") + std::to_string(instant.ns);
+    }
+    return "{\"cores\": [" + cores + "], \"threads\": [" + threads + "], \"continued_ns\": [" + continued +
+           "]}";
+}
+
+std::string make_states(const std::vector<SystemState>& states) {
+    std::string list;
+    for (const SystemState& state : states) {
+        list += (list.empty() ? "{\"name\": \"" : ", {\"name\": \"") + make_plain(state.name) +
+                "\", \"is_operating\": " + (state.is_operating ? "true" : "false") + "}";
+    }
+    return list;
+}
+
 std::string make_facts(const std::vector<const RunLog*>& logs, const RunFacts& facts) {
     std::uint64_t lost = 0U;
     for (const RunLog* log : logs) {
@@ -116,7 +199,8 @@ std::string make_facts(const std::vector<const RunLog*>& logs, const RunFacts& f
            ",\n \"frame_ns\": " + std::to_string(facts.frame.ns) +
            ",\n \"reference_ns\": " + std::to_string(facts.reference.ns) +
            ",\n \"lost_rows\": " + std::to_string(lost) + ",\n \"notes\": " + make_list(facts.notes) +
-           ",\n \"findings\": " + make_list(facts.findings) + make_requests(facts) +
+           ",\n \"findings\": " + make_list(facts.findings) + make_requests(facts) + ",\n \"states\": [" +
+           make_states(facts.states) + "]" + ",\n \"switches\": " + make_switches(facts.switches) +
            ",\n \"rights\": " + make_rights(facts.priority, facts.processor, facts.memory) + "\n}\n";
 }
 
@@ -156,6 +240,9 @@ bool write_whole(const std::string& path, const std::string& content) {
 
 constexpr const char* kOpenings = "openings.npy";
 constexpr const char* kSteps = "steps.npy";
+constexpr const char* kWindowUse = "window_use.npy";
+constexpr const char* kStepUse = "step_use.npy";
+constexpr const char* kSlices = "slices.npy";
 constexpr const char* kFacts = "run.json";
 
 /// Name and content of a file.
@@ -175,7 +262,7 @@ std::string write_files(const std::string& folder, const std::vector<File>& file
 
 std::string remove_files(const std::string& folder) {
     // run.json is removed first, because without it no folder counts as complete.
-    for (const char* name : {kFacts, kOpenings, kSteps}) {
+    for (const char* name : {kFacts, kOpenings, kSteps, kWindowUse, kStepUse, kSlices}) {
         std::error_code error;
         std::filesystem::remove(folder + "/" + name, error);
         if (error) {
@@ -187,13 +274,17 @@ std::string remove_files(const std::string& folder) {
 
 std::string write_run(const std::string& folder, const std::vector<const RunLog*>& logs,
                       const RunFacts& facts) {
-    return write_files(
-        folder,
-        {{kOpenings, make_openings(logs)}, {kSteps, make_steps(logs)}, {kFacts, make_facts(logs, facts)}});
+    StepFiles steps = make_steps(logs);
+    return write_files(folder, {{kOpenings, make_openings(logs)},
+                                {kSteps, std::move(steps.steps)},
+                                {kWindowUse, make_window_use(logs)},
+                                {kStepUse, std::move(steps.use)},
+                                {kSlices, make_slices(facts.switches)},
+                                {kFacts, make_facts(logs, facts)}});
 }
 
 std::string write_cost(const std::string& folder, const RunLog& log, const CostFacts& facts) {
-    return write_files(folder, {{kSteps, make_steps({&log})}, {kFacts, make_cost_facts(log, facts)}});
+    return write_files(folder, {{kSteps, make_steps({&log}).steps}, {kFacts, make_cost_facts(log, facts)}});
 }
 
 }  // namespace mamori::timing

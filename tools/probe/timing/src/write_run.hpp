@@ -12,8 +12,25 @@
 #include "mamori/timing/counting_host.hpp"
 #include "mamori/timing/introspection_load.hpp"
 #include "mamori/timing/run_log.hpp"
+#include "mamori/timing/switch_log.hpp"
+#include "mamori/timing/timing_run.hpp"
+#include "thread_list.hpp"
 
 namespace mamori::timing {
+
+/// Switches of one core.
+struct CoreSwitches {
+    const SwitchLog* log{nullptr};
+    ports::posix_rt::Right right{};
+    int processor{0};
+    std::vector<std::uint32_t> window_threads{};  ///< per window of the table; 0: none
+};
+
+struct SwitchFacts {
+    std::vector<CoreSwitches> cores{};  ///< empty: no log
+    std::vector<NamedThread> threads{};
+    std::vector<Instant> continued{};  ///< the process was stopped until then
+};
 
 /// Content of run.json except the rows.
 struct RunFacts {
@@ -30,6 +47,8 @@ struct RunFacts {
     std::vector<Pace> paces{};            ///< of each block, from major frame 0 on
     std::vector<std::string> notes{};     ///< of the application
     std::vector<std::string> findings{};  ///< likewise
+    SwitchFacts switches{};
+    std::vector<SystemState> states{};
 };
 
 /// Content of run.json of a cost run except the rows.
@@ -54,8 +73,8 @@ struct CostFacts {
 /// @return empty on success, otherwise one sentence with the path and the cause.
 std::string remove_files(const std::string& folder);
 
-/// Atomically writes openings.npy, steps.npy and run.json; run.json is last and marks a complete folder.
-/// Contains the rows of all cores, ordered by planned instant.
+/// Atomically writes openings.npy, steps.npy, window_use.npy, step_use.npy, slices.npy and run.json; run.json
+/// is last and marks a complete folder. Contains the rows of all cores, ordered by planned instant.
 /// @return empty on success, otherwise one sentence with the path and the cause.
 std::string write_run(const std::string& folder, const std::vector<const RunLog*>& logs,
                       const RunFacts& facts);

@@ -4,8 +4,11 @@
 #include "mamori/timing/measuring_host.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
+#include <chrono>
+#include <thread>
 
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/trace/verifies.hpp"
@@ -44,10 +47,14 @@ class Worker final : public Component {
     explicit Worker(const char* name) noexcept : Component(name) {}
     Status on_execute(ContextHandle) noexcept override {
         ++run_count;
+        for (int i = 0; i < sleep_count; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        }
         return Status::kOk;
     }
     Status on_state_update(ContextHandle) noexcept override { return Status::kOk; }
     int run_count{0};
+    int sleep_count{0};
 };
 
 class Devices final : public ports::posix_rt::OpeningObserver {
@@ -106,6 +113,23 @@ TEST_F(MeasuringHostTest, EachStepIsNotedWithItsComponentPassAndInstants) {
     EXPECT_GT(opening.closed.ns, before);
     EXPECT_EQ(devices_.before, 0U);
     EXPECT_EQ(devices_.after, 0U);
+}
+
+TEST_F(MeasuringHostTest, EachStepHasTheCpuTimeAndSwitchesOfItsThread) {
+    verifies("SWR-TIM-042");
+    RunLog log{4U, 16U};
+    MeasuringHost sut{inner_, log, 1U, nullptr};
+    first_.sleep_count = 2;
+    EXPECT_EQ(sut.get_thread(0U), 0U);
+
+    EXPECT_EQ(open(sut, 0U, Instant{0}), WindowOutcome::kCompleted);
+
+    EXPECT_EQ(sut.get_thread(0U), static_cast<std::uint32_t>(gettid()));
+    for (const StepRow& row : log.get_steps()) {
+        EXPECT_GT(row.cpu_ns, 0);
+    }
+    EXPECT_GE(log.get_steps()[0].voluntary, 2U) << "the step waited twice";
+    EXPECT_EQ(log.get_steps()[1].voluntary, 0U);
 }
 
 TEST_F(MeasuringHostTest, WhatTheInnerHostSaysGoesThrough) {

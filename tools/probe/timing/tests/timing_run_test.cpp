@@ -155,6 +155,57 @@ TEST_F(TimingRunTest, AWholeRunLeavesEveryOpeningAndEveryStepOfAllCores) {
     EXPECT_LE(read_row_count(folder_ + "/steps.npy"), 2U * run_count);
 }
 
+TEST_F(TimingRunTest, EachWindowAndStepHasARowOfItsUseOfTheProcessor) {
+    verifies("SWR-TIM-042", Technique::kInterface);
+    ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+
+    const std::size_t steps = read_row_count(folder_ + "/steps.npy");
+    EXPECT_EQ(read_row_count(folder_ + "/window_use.npy"), 5U);
+    EXPECT_EQ(read_row_count(folder_ + "/step_use.npy"), steps);
+    const std::string use = read_file(folder_ + "/step_use.npy");
+    for (std::size_t row = 0U; row < steps; ++row) {
+        std::int64_t cpu_ns = 0;
+        std::memcpy(&cpu_ns, &use[use.size() - 16U * (steps - row)], sizeof cpu_ns);
+        EXPECT_GT(cpu_ns, 0);
+    }
+    const Json switches = read_facts()["switches"];
+    ASSERT_EQ(switches["cores"].size(), 1U);
+    const Json& core = switches["cores"][0];
+    EXPECT_EQ(core["right"]["is_granted"], core["right"]["errno"] == 0);
+    EXPECT_GT(core["runner"], 0);
+    EXPECT_EQ(core["window_threads"].size(), 2U);
+    EXPECT_EQ(core["window_threads"][1], 0) << "this window belongs to the other core";
+    EXPECT_TRUE(switches["continued_ns"].empty());
+}
+
+TEST_F(TimingRunTest, TheStateOfTheSystemIsWrittenForEachWindow) {
+    verifies("SWR-TIM-046");
+    options_.states = {{"slow", false}, {"fast \"one\"", true}};
+    options_.get_state = [this] { return static_cast<std::size_t>(first_.run_count > 2 ? 1 : 0); };
+
+    ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
+
+    EXPECT_EQ(read_facts()["states"], (Json{{{"name", "slow"}, {"is_operating", false}},
+                                            {{"name", "fast  one "}, {"is_operating", true}}}));
+    const std::string use = read_file(folder_ + "/window_use.npy");
+    std::uint32_t last = 0U;
+    std::memcpy(&last, &use[use.size() - sizeof last], sizeof last);
+    EXPECT_EQ(last, 1U);
+}
+
+TEST_F(TimingRunTest, StatesWithoutTheirSourceAreRefused) {
+    verifies("SWR-TIM-046", Technique::kErrorGuessing, Polarity::kViolation);
+    options_.states = {{"slow", false}};
+
+    EXPECT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kRefused);
+    options_.states.clear();
+    options_.get_state = [] { return std::size_t{0U}; };
+    const TimingResult result = run_timing({{upper_, upper_threads_}}, options_);
+
+    EXPECT_EQ(result.outcome, TimingOutcome::kRefused);
+    EXPECT_NE(result.message.find("get_state"), std::string::npos);
+}
+
 TEST_F(TimingRunTest, PlannedInstantsAreWholePeriodsApart) {
     verifies("SWR-PRT-038");
     ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);

@@ -3,7 +3,7 @@
 /// Records of a real-time run: each window instance and each step of a component, with its instants. All
 /// memory is allocated before the run, so that a record costs two readings of the clock and a few stores.
 ///
-/// @satisfies SWR-TIM-001      Design: docs/design/timing.md#log
+/// @satisfies SWR-TIM-001, SWR-TIM-042      Design: docs/design/timing.md#log
 #ifndef MAMORI_TIMING_RUN_LOG_HPP
 #define MAMORI_TIMING_RUN_LOG_HPP
 
@@ -14,11 +14,15 @@
 
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/run/executive.hpp"
+#include "mamori/timing/switch_log.hpp"
 
 namespace mamori::timing {
 
 /// Represents an instant that did not occur.
 inline constexpr Instant kNoInstant{-1};
+
+/// State of a system that does not tell its state.
+inline constexpr std::uint32_t kNoState = 0xFFFFFFFFU;
 
 /// One window instance.
 struct OpeningRow {
@@ -27,6 +31,8 @@ struct OpeningRow {
     Instant closed{};   ///< window end
     std::size_t window{0U};
     WindowOutcome outcome{WindowOutcome::kCompleted};
+    std::uint32_t state{kNoState};  ///< of the system after the window, index in TimingOptions::states
+    ProcessorUse use{};             ///< from the planned instant to the end; 0 without a switch log
 };
 
 /// One step of a component. The thread that does the work writes `start` and `end`, possibly long after the
@@ -37,6 +43,10 @@ struct StepRow {
     WindowHost::Pass pass{WindowHost::Pass::kExecute};
     std::atomic<std::int64_t> start_ns{kNoInstant.ns};  ///< kNoInstant: the step did not begin
     std::atomic<std::int64_t> end_ns{kNoInstant.ns};    ///< kNoInstant: the step has not returned
+    // Of the thread during the step, written before `end_ns`. The waits between steps do not count.
+    std::int64_t cpu_ns{0};
+    std::uint32_t voluntary{0U};    ///< switches because the step waited
+    std::uint32_t involuntary{0U};  ///< switches because another thread ran instead
 };
 
 /// Rows of one core.

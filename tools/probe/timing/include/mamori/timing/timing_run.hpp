@@ -3,7 +3,7 @@
 /// Runs a system in real time for a number of major frames and writes the measurements for `mamori timing`.
 /// For hosts: link mamori::timing into your program and offer `timing --cycles N --out DIR [--requests]`.
 ///
-/// @satisfies SWR-TIM-002, SWR-TIM-003, SWR-TIM-005, SWR-TIM-041      Design:
+/// @satisfies SWR-TIM-002, SWR-TIM-003, SWR-TIM-005, SWR-TIM-041, SWR-TIM-046      Design:
 /// docs/design/timing.md#measured-run
 #ifndef MAMORI_TIMING_TIMING_RUN_HPP
 #define MAMORI_TIMING_TIMING_RUN_HPP
@@ -29,6 +29,13 @@ struct TimedCore {
     ports::posix_rt::OpeningObserver* devices{nullptr};
 };
 
+/// A state of the whole system, for example of its supervisor.
+struct SystemState {
+    std::string name;
+    /// The system does its task. Leaving such a state is a finding of `mamori timing`.
+    bool is_operating{false};
+};
+
 struct TimingOptions {
     std::uint64_t cycles{60000U};  ///< major frames, > 0
     std::string out;               ///< folder of the results; is created
@@ -40,6 +47,11 @@ struct TimingOptions {
     /// Called after the run; returns errors of the system itself, for example that it left its operating
     /// state. Each text is a finding of `mamori timing`. Empty: none.
     std::function<std::vector<std::string>()> tell_findings{};
+    /// States that `get_state` can return. Empty: the system has none.
+    std::vector<SystemState> states{};
+    /// @return index in `states`. Called by the thread of each core after each of its windows; must be quick
+    /// and must not block. Not called while work of the core is outstanding.
+    std::function<std::size_t()> get_state{};
     /// Alternates blocks of major frames: without requests from outside, with 1,000 requests per second, and
     /// with as many in bursts of a hundred. Rejected without `introspection`.
     bool with_requests{false};

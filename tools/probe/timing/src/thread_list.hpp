@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Names the threads of a switch log, and notes when a stopped process continued.
+#ifndef MAMORI_TIMING_THREAD_LIST_HPP
+#define MAMORI_TIMING_THREAD_LIST_HPP
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mamori/timing/run_log.hpp"
+#include "mamori/timing/switch_log.hpp"
+
+namespace mamori::timing {
+
+enum class ThreadKind : std::uint8_t {
+    kOwn,     ///< of this process
+    kOther,   ///< of another process
+    kKernel,  ///< of the kernel
+};
+
+struct NamedThread {
+    std::uint32_t thread{0U};
+    std::uint32_t process{0U};
+    ThreadKind kind{ThreadKind::kOther};
+    int priority{0};   ///< fixed priority of an own thread, 0: none; 0 for all others
+    std::string name;  ///< empty: the thread has ended
+};
+
+/// @return the threads of all kept slices, once each, in ascending order; without the idle thread and threads
+/// of other processes that have ended.
+std::vector<NamedThread> list_threads(const std::vector<const SwitchLog*>& logs);
+
+/// Starts to note each SIGCONT of this process: it was stopped before. Other handlers are replaced.
+void watch_continuations() noexcept;
+/// Restores the default action. @return readings of CLOCK_MONOTONIC [ns], at most 1024.
+std::vector<std::int64_t> end_continuations();
+
+}  // namespace mamori::timing
+
+#endif  // MAMORI_TIMING_THREAD_LIST_HPP
