@@ -23,6 +23,8 @@ COMPILED = (
     "examples/tour/system_modes.cpp",
     "examples/tour/two_cores.cpp",
     "ports/conformance/tests/porting_page_test.cpp",
+    "ports/lcm/tests/lcm_page_test.cpp",
+    "ports/lcm/tests/sample_types_program.cpp",
     "safety/tests/integrity_page_test.cpp",
     "safety/tests/supervision/manual_page_test.cpp",
     "tools/probe/table_dump/tests/robot_with_modes.hpp",
