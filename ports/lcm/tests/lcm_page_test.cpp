@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: the samples of docs/manual/lcm.md compile and do what the page says. Method: the samples, used once.
 #include <gtest/gtest.h>
+#include <poll.h>
 
 #include <array>
 #include <cstdint>
 
+#include "mamori/ports/lcm/frame_link.hpp"
+#include "mamori/ports/lcm/link_components.hpp"
 #include "mamori/ports/lcm/protected_message.hpp"
 #include "mamori/safety/e2e/checker.hpp"
 #include "mamori/safety/e2e/profile_04.hpp"
@@ -53,6 +56,31 @@ TEST(LcmPageTest, AProtectedStateArrivesAsItWasSent) {
 
     EXPECT_EQ(received.position_rad, sent.position_rad);
     EXPECT_EQ(received.warnings, sent.warnings);
+}
+
+TEST(LcmPageTest, AFrameWithAStateComesOutOfTheReceiver) {
+    verifies("SWR-LCM-008", Technique::kInterface, Polarity::kNominal);
+    using namespace mamori::ports::lcm;
+    MessageQueue<StateMessage, 16U> queue;
+    FrameReceiverFor<StateMessage> transport(queue);
+    LinkReceiver<StateMessage, MessageQueue<StateMessage, 16U>> receiver("state", queue, {10U});
+    FrameSenderFor<StateMessage> sender;
+    ASSERT_EQ(transport.open_udp("127.0.0.1", 0U), Status::kOk) << get_advice(transport.get_fault());
+    ASSERT_EQ(sender.open_udp("127.0.0.1", transport.get_port()), Status::kOk);
+    safety::E2eProtector<Profile> protector(kStateChannel);
+    std::array<std::byte, StateMessage::kSizeMax> buffer{};
+
+    for (int i = 0; i < 3; ++i) {
+        const Result<std::size_t> size = encode_protected<StateMessage>(JointState{}, protector, buffer);
+        ASSERT_EQ(sender.send({buffer.data(), size.get_value()}), Status::kOk);
+    }
+    for (int i = 0; i < 10'000 && queue.get_counts().accepted < 3U; ++i) {
+        ::poll(nullptr, 0U, 1);
+    }
+    ASSERT_EQ(receiver.on_execute({0, Instant{1}}), Status::kOk);
+    EXPECT_TRUE(receiver.out.publish(Instant{1}));
+    EXPECT_EQ(receiver.get_news().used, 1U);
+    EXPECT_EQ(receiver.get_news().initial, 2U);
 }
 
 }  // namespace
