@@ -22,6 +22,14 @@
 
 namespace mamori::ports::lcm {
 
+namespace detail {
+/// As first base class it exists longer than the sender or receiver that uses it.
+template <std::size_t kSize>
+struct FrameStorage {
+    std::array<std::byte, kSize> octets{};
+};
+}  // namespace detail
+
 /// Sends frames. Use FrameSenderFor, which has the storage.
 ///
 /// Thread safety: none; open and close it outside of windows. Time: send() O(size), and a system call that
@@ -58,12 +66,10 @@ class FrameSender : public MessageSink {
 
 /// FrameSender for messages of one type. @tparam Message LcmMessage.
 template <typename Message>
-class FrameSenderFor final : public FrameSender {
+class FrameSenderFor final : private detail::FrameStorage<calc_frame_size_max(Message::kSizeMax)>,
+                             public FrameSender {
   public:
-    constexpr FrameSenderFor() noexcept : FrameSender({frame_.data(), frame_.size()}) {}
-
-  private:
-    std::array<std::byte, calc_frame_size_max(Message::kSizeMax)> frame_{};
+    constexpr FrameSenderFor() noexcept : FrameSender({this->octets.data(), this->octets.size()}) {}
 };
 
 /// Receives frames. Use FrameReceiverFor, which has the storage.
@@ -117,17 +123,14 @@ class FrameReceiver {
 
 /// FrameReceiver for messages of one type. @tparam Message LcmMessage; one frame fits into a datagram.
 template <typename Message>
-class FrameReceiverFor final : public FrameReceiver {
+class FrameReceiverFor final : private detail::FrameStorage<Message::kSizeMax + kFrameChecksumSize>,
+                               public FrameReceiver {
     static_assert(calc_frame_size_max(Message::kSizeMax) <= kChunk,
                   "a datagram has at most 2048 octets: send larger messages over LCM");
 
   public:
     explicit FrameReceiverFor(MessageInbox& inbox) noexcept
-        : FrameReceiver(inbox, {message_.data(), message_.size()}) {}
-    ~FrameReceiverFor() { close(); }  // the thread uses the storage
-
-  private:
-    std::array<std::byte, Message::kSizeMax + kFrameChecksumSize> message_{};
+        : FrameReceiver(inbox, {this->octets.data(), this->octets.size()}) {}
 };
 
 }  // namespace mamori::ports::lcm
