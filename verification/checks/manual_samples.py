@@ -23,6 +23,7 @@ COMPILED = (
     "examples/tour/system_modes.cpp",
     "examples/tour/two_cores.cpp",
     "ports/conformance/tests/porting_page_test.cpp",
+    "ports/lcm/tests/lcm_link_test.cpp",
     "ports/lcm/tests/lcm_page_test.cpp",
     "ports/lcm/tests/sample_types_program.cpp",
     "safety/tests/integrity_page_test.cpp",

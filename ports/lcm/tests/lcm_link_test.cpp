@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -25,6 +26,7 @@
 #include <vector>
 
 #include "mamori/ports/lcm/link_components.hpp"
+#include "mamori/ports/lcm/log_player.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "support/sample_types.hpp"
 #include "support/thread_policy.hpp"
@@ -129,6 +131,35 @@ TEST_F(LcmLinkTest, AnInvalidChannelAndOneTooManyAreRejected) {
     }
     EXPECT_EQ(link_.receive("STATE", queue_), Status::kOutOfResources);
     EXPECT_EQ(link_.get_fault(), LinkFault::kSubscribe);
+}
+
+TEST_F(LcmLinkTest, ALogOfTheOfficialLibraryIsReplayed) {
+    verifies("SWR-LCM-012", Technique::kBackToBack, Polarity::kNominal);
+    const std::string path = ::testing::TempDir() + "mamori_lcm_log_" + std::to_string(::getpid());
+    ASSERT_EQ(link_.open(("file://" + path + "?mode=w").c_str()), Status::kOk);
+    LcmSender sender(link_, "STATE");
+    safety::E2eProtector<Message::Profile> protector(Message::kChannel);
+    std::vector<std::byte> octets(Message::kSizeMax);
+    for (int i = 0; i < 100; ++i) {
+        Cloud value{};
+        value.last.f = i;
+        const Result<std::size_t> size =
+            encode_protected<Message>(value, protector, {octets.data(), octets.size()});
+        ASSERT_EQ(sender.send({octets.data(), size.get_value()}), Status::kOk);
+    }
+    link_.close();
+
+    static LogPlayer player;
+    ASSERT_EQ(player.receive("STATE", queue_), Status::kOk);
+    ASSERT_EQ(player.open(path.c_str()), Status::kOk);
+    EXPECT_EQ(player.deliver_until(Instant{3'600'000'000'000}), Status::kPreconditionNotMet);
+    for (int i = 0; i < 100; ++i) {
+        Cloud value{};
+        ASSERT_EQ(queue_.take(message_), Status::kOk);
+        ASSERT_EQ(decode_protected<Message>(message_, value), Status::kOk);
+        EXPECT_EQ(value.last.f, i);
+    }
+    EXPECT_EQ(std::remove(path.c_str()), 0);
 }
 
 /// Multicast in a network namespace of a child process, which ends with it.
