@@ -91,6 +91,7 @@ LinkFault LcmLink::connect() noexcept {
 void LcmLink::run() noexcept {
     fault_ = connect();
     const bool is_connected = fault_ == LinkFault::kNone;
+    is_receiving_.store(is_connected, std::memory_order_relaxed);
     lcm_t* const lcm = get_lcm(handle_);
     MAMORI_ENSURE(3, ::sem_post(&is_connected_) == 0);
     if (!is_connected) {
@@ -99,6 +100,7 @@ void LcmLink::run() noexcept {
     const int file = ::lcm_get_fileno(lcm);
     while (detail::wait_for(file, stop_) && ::lcm_handle(lcm) == 0) {
     }
+    is_receiving_.store(false, std::memory_order_relaxed);
 }
 
 }  // namespace mamori::ports::lcm

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "mamori/ports/lcm/rtc_names.hpp"
 #include "mamori/ports/lcm/type_printer.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "support/random_value.hpp"
@@ -32,6 +33,7 @@ struct Renamed {
     mamori::BoundedSequence<std::int16_t, 2U> values{};
     mamori::BoundedString<3U> name{};
 };
+using Joints = mamori::rtc::TimedDoubleSeq<7U>;
 struct Clash {
     std::int32_t n_values{0};
     mamori::BoundedSequence<std::int16_t, 2U> values{};
@@ -44,6 +46,7 @@ MAMORI_FIELDS(lcm_codec_test::Small, is_on, colour, values, name)
 MAMORI_LCM_NAMES(lcm_codec_test::Small, is_on, colour, values, name)
 MAMORI_LCM_FIELDS(lcm_codec_test::Renamed, is_off, colour, values, name)
 MAMORI_LCM_FIELDS(lcm_codec_test::Clash, n_values, values)
+MAMORI_LCM_NAMES(lcm_codec_test::Joints, tm, data)
 
 namespace mamori::ports::lcm {
 namespace {
@@ -210,6 +213,27 @@ TEST(LcmTypeTest, TheTextNamesPackageStructFieldsLengthsAndLimits) {
         "    int16_t values[n_values];\n"
         "    string name;  // up to 3 characters\n"
         "}\n");
+}
+
+TEST(LcmTypeTest, TimedTypesOfRtMiddlewareHaveNames) {
+    verifies("SWR-LCM-001", Technique::kRequirementsBased, Polarity::kNominal);
+    std::array<char, 512U> buffer{};
+    const std::size_t size =
+        write_lcm_text<lcm_codec_test::Joints>({buffer.data(), buffer.size()}).get_value();
+    const std::string text(buffer.data(), size);
+    EXPECT_NE(text.find("package lcm_codec_test;\n\nstruct Joints {\n    mamori.rtc.Time tm;\n"
+                        "    int32_t n_data;  // 0 .. 7\n    double data[n_data];\n}\n"),
+              std::string::npos)
+        << text;
+
+    rtc::TimedDouble sent{};
+    sent.tm = {1U, 2U};
+    sent.data = 0.5;
+    rtc::TimedDouble received{};
+    const Octets octets = encode_all(sent);
+    ASSERT_EQ(decode_lcm({octets.data(), octets.size()}, received), Status::kOk);
+    EXPECT_EQ(received.tm.nsec, 2U);
+    EXPECT_EQ(received.data, 0.5);
 }
 
 TEST(LcmTypeTest, ATextThatDoesNotFitAndAClashOfNamesAreDetected) {

@@ -80,7 +80,9 @@ TEST_F(LcmLinkTest, MessagesOfTheChannelArriveAndOthersDoNot) {
     ASSERT_TRUE(wait_until([&] { return queue_.take(message_) == Status::kOk; }));
     EXPECT_EQ(message_.size(), size.get_value());
     EXPECT_EQ(queue_.get_counts().accepted, 1U);
+    EXPECT_TRUE(link_.is_receiving());
     link_.close();
+    EXPECT_FALSE(link_.is_receiving());
     EXPECT_EQ(sender.send({octets.data(), size.get_value()}), Status::kPreconditionNotMet);
 }
 

@@ -53,10 +53,13 @@ class LcmLink final {
     /// Ends the thread and leaves the network; the channels stay.
     void close() noexcept;
 
-    /// Sends one message. From any thread. @return as MessageSink::send().
+    /// Sends one message. From any thread; liblcm waits while the buffer of its socket is full.
+    /// @return as MessageSink::send().
     Status publish(const char* channel, Span<const std::byte> message) noexcept;
 
     bool is_open() const noexcept { return handle_ != nullptr; }
+    /// False while closed, and after an error of the network.
+    bool is_receiving() const noexcept { return is_receiving_.load(std::memory_order_relaxed); }
     /// Why the last call of receive() or open() failed.
     LinkFault get_fault() const noexcept { return fault_; }
 
@@ -76,13 +79,14 @@ class LcmLink final {
     LcmHandle* handle_{nullptr};
     pthread_t thread_{};
     sem_t is_connected_{};
+    std::atomic<bool> is_receiving_{false};
     int stop_{-1};
     LinkFault fault_{LinkFault::kNone};
 };
 
 /// Sends the messages of one channel.
 ///
-/// Thread safety: as LcmLink::publish(). Time: a system call that does not wait. Memory: none.
+/// Thread safety: as LcmLink::publish(). Time: as LcmLink::publish(). Memory: none of its own.
 class LcmSender final : public MessageSink {
   public:
     /// @param[in] link, channel must outlive this object; the link is open before the first message.

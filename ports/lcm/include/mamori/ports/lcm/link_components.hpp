@@ -47,7 +47,7 @@ namespace mamori::ports::lcm {
 
 /// Sends what is new at its input. @tparam Message LcmMessage.
 ///
-/// Thread safety: none; runs in its window. Time: O(size of a message), and a system call that does not wait.
+/// Thread safety: none; runs in its window. Time: O(size of a message), and that of the sink.
 /// Memory: one message.
 template <typename Message>
 class LinkSender final : public Component {

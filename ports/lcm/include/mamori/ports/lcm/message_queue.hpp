@@ -22,7 +22,7 @@ namespace mamori::ports::lcm {
 /// Sending end of a transport.
 class MessageSink {
   public:
-    /// Sends one message, without waiting. @param[in] message fingerprint included; not kept.
+    /// Sends one message. @param[in] message fingerprint included; not kept.
     /// @return kOk (given to the transport, which may lose it); kPreconditionNotMet (not open);
     ///         kBadParameter (longer than the sender was made for); kOutOfResources (the transport is full:
     ///         this message is lost); kError (the transport reported an error: this message is lost).
