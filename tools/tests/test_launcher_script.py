@@ -58,7 +58,7 @@ def test_second_run_installs_nothing(box: Box) -> None:
 @pytest.mark.parametrize(
     ("words", "wanted", "unwanted"),
     [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("e2e",), "python3-venv", "cmake"),
-     (("constraint", "x<1"), "python3-venv", "cmake"),
+     (("constraint", "x<1"), "python3-venv", "cmake"), (("lcm", "types", "x"), "python3-venv", "cmake"),
      (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "strace"),
      (("build", "--preset", "host-asan"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
      (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),
@@ -70,7 +70,8 @@ def test_second_run_installs_nothing(box: Box) -> None:
      (("cost", "x"), "valgrind", "stress-ng"), (("bench", "--list"), "python3-venv", "valgrind"), (("test",), "valgrind", "libboost-dev"),
      (("table", "t.json", "--text"), "python3-venv", "graphviz"), (("table", "t.json", "--out", "d"), "graphviz", "cmake"),
      (("trace", "check"), "python3-venv", "git"), (("trace", "impact", "HEAD"), "git", "cmake"),
-     (("trace", "verify", "b.tar"), "openssh-client", "cmake"), (("test",), "openssh-client", "strace")],
+     (("trace", "verify", "b.tar"), "openssh-client", "cmake"), (("test",), "openssh-client", "strace"),
+     (("test",), "liblcm-bin", "libboost-dev"), (("verify",), "liblcm-dev", "cppcheck"), (("build",), "cmake", "liblcm-dev")],
 )  # fmt: skip
 def test_each_command_needs_its_groups_only(box: Box, words: tuple[str, ...], wanted: str, unwanted: str) -> None:
     box.run("--install", *words)

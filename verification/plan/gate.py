@@ -44,8 +44,8 @@ def race_steps() -> tuple[Step, ...]:
     """Data shared by two cores, under the thread sanitizer. Only these programs have threads."""
     preset = "host-tsan"
     targets = ("kernel_abandon_stress_test", "kernel_crossing_test", "kernel_introspection_stress_test", "kernel_mode_stress_test",
-               "kernel_stimulus_stress_test", "posix_rt_conformance_test", "posix_rt_guard_test", "posix_rt_watchdog_test", "supervision_log_test",
-               "timing_test")  # fmt: skip
+               "kernel_stimulus_stress_test", "lcm_link_test", "posix_rt_conformance_test", "posix_rt_guard_test", "posix_rt_watchdog_test",
+               "supervision_log_test", "timing_test")  # fmt: skip
     build = Step(
         name=f"build {preset}",
         commands=(

@@ -102,7 +102,7 @@ def test_components_of_the_package_are_found_by_name_with_version_and_licence(pr
 
 @pytest.mark.verifies("SWR-PRF-039", technique="equivalence_classes")
 def test_each_component_of_the_package_may_be_asked_for(project: Project, prefix: Path, tmp_path: Path) -> None:
-    names = "kernel safety posix_rt virtual_time conformance table_dump timing verifies simbody_sim"
+    names = "kernel safety posix_rt lcm virtual_time conformance table_dump timing verifies simbody_sim"
     links = "".join(f"if(NOT TARGET mamori::{name})\nmessage(FATAL_ERROR {name})\nendif()\n" for name in names.split())
     folder = write_project(project, tmp_path / "robot", f"find_package(mamori 0.1 CONFIG REQUIRED COMPONENTS {names})\n", links)
 

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: values arrive through any transport, every lost message is counted, and a damaged, repeated, old or
+// unexpected message gives no value. Method: cycles of both components by hand; a transport that the test
+// commands.
+#include "mamori/ports/lcm/link_components.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "mamori/trace/verifies.hpp"
+#include "support/sample_types.hpp"
+
+namespace mamori::ports::lcm {
+namespace {
+
+using lcm_sample::Cloud;
+using Message = lcm_sample::CloudMessage;
+using Queue = MessageQueue<Message, 4U>;
+using namespace verification;
+
+constexpr safety::HardenedLimits kLimits{3U};
+
+/// A transport whose messages go where the test sends them.
+class FakeSink final : public MessageSink {
+  public:
+    Status send(Span<const std::byte> message) noexcept override {
+        last.assign(message.begin(), message.end());
+        return status;
+    }
+    std::vector<std::byte> last{};
+    Status status{Status::kOk};
+};
+
+class LinkComponentsTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        for (int i = 0; i < 2; ++i) {
+            send(0);
+            deliver(sink_.last);
+            ASSERT_FALSE(receive());
+        }
+        ASSERT_EQ(get_news().initial, 2U);  // with these two, the receiver found the order
+    }
+    /// Sends one message with `mark` as its content; it stays at the sink.
+    void send(int mark) {
+        Cloud value{};
+        value.last.f = mark;
+        source_.write(value);
+        ++now_;
+        ASSERT_TRUE(source_.publish(Instant{now_}));
+        sender_.in.take(source_.get_published_sample());
+        ASSERT_EQ(sender_.on_execute({0, Instant{now_}}), Status::kOk);
+        sender_.in.mark_read();
+    }
+    void deliver(const std::vector<std::byte>& octets) { queue_.put({octets.data(), octets.size()}); }
+    /// One cycle of the receiver. @return true when it gave a value.
+    bool receive() {
+        ++now_;
+        EXPECT_EQ(receiver_.on_execute({0, Instant{now_}}), Status::kOk);
+        EXPECT_TRUE(receiver_.news.publish(Instant{now_}));
+        return receiver_.out.publish(Instant{now_});
+    }
+    const LinkNews& get_news() const { return receiver_.news.get_published(); }
+    int get_mark() const { return receiver_.out.get_published().last.f; }
+
+    OutPort<Cloud> source_{kNoOwner, "source"};
+    FakeSink sink_{};
+    Queue queue_;
+    LinkSender<Message> sender_{"sender", sink_};
+    LinkReceiver<Message, Queue> receiver_{"receiver", queue_, kLimits};
+    std::int64_t now_{0};
+};
+
+TEST_F(LinkComponentsTest, AValueArrivesOnceAndTheNewestOfSeveralCounts) {
+    verifies("SWR-LCM-008", Technique::kRequirementsBased, Polarity::kNominal);
+    send(7);
+    deliver(sink_.last);
+    ASSERT_TRUE(receive());
+    EXPECT_EQ(get_mark(), 7);
+    EXPECT_FALSE(receive());
+
+    for (int mark = 8; mark <= 10; ++mark) {
+        send(mark);
+        deliver(sink_.last);
+    }
+    ASSERT_TRUE(receive());
+    EXPECT_EQ(get_mark(), 10);
+    EXPECT_EQ(get_news().used, 4U);
+    EXPECT_EQ(get_news().lost, 0U);
+}
+
+TEST_F(LinkComponentsTest, EachLostMessageIsCountedUpToTheLimit) {
+    verifies("SWR-LCM-008", Technique::kBoundaryValues, Polarity::kViolation);
+    send(1);
+    send(2);
+    send(3);
+    deliver(sink_.last);
+    EXPECT_TRUE(receive());
+    EXPECT_EQ(get_news().lost, 2U);
+    EXPECT_FALSE(get_news().is_closed);
+
+    for (int i = 0; i < 4; ++i) {
+        send(4);
+    }
+    deliver(sink_.last);
+    EXPECT_FALSE(receive());
+    EXPECT_TRUE(get_news().is_closed);
+    send(5);
+    deliver(sink_.last);
+    EXPECT_FALSE(receive());
+    EXPECT_EQ(get_news().unordered, 2U);
+    EXPECT_EQ(get_news().lost, 2U);
+}
+
+TEST_F(LinkComponentsTest, ARestartFindsTheOrderAgain) {
+    verifies("SWR-LCM-008", Technique::kStateTransition, Polarity::kNominal);
+    for (int i = 0; i < 4; ++i) {
+        send(4);
+    }
+    deliver(sink_.last);
+    ASSERT_FALSE(receive());
+    ASSERT_TRUE(get_news().is_closed);
+
+    receiver_.restart();
+    for (int mark = 0; mark < 3; ++mark) {
+        send(mark);
+        deliver(sink_.last);
+    }
+    EXPECT_TRUE(receive());
+    EXPECT_EQ(get_mark(), 2);
+    EXPECT_FALSE(get_news().is_closed);
+}
+
+TEST_F(LinkComponentsTest, AMessageOverwrittenInTheQueueIsAlsoCountedAsLost) {
+    verifies("SWR-LCM-008", Technique::kBoundaryValues, Polarity::kViolation);
+    for (int mark = 1; mark <= 6; ++mark) {
+        send(mark);
+        deliver(sink_.last);
+    }
+
+    ASSERT_TRUE(receive());
+    EXPECT_EQ(get_mark(), 6);
+    EXPECT_EQ(get_news().overwritten, 2U);
+    EXPECT_EQ(get_news().lost, 2U);
+    EXPECT_EQ(get_news().used, 4U);
+}
+
+TEST_F(LinkComponentsTest, ADamagedMessageGivesNoValue) {
+    verifies("SWR-LCM-008", Technique::kFaultInjection, Polarity::kViolation);
+    send(1);
+    std::vector<std::byte> octets = sink_.last;
+    octets.back() ^= std::byte{1};
+    deliver(octets);
+    queue_.put_damaged();
+
+    EXPECT_FALSE(receive());
+    EXPECT_EQ(get_news().damaged, 2U);
+    EXPECT_EQ(get_news().used, 0U);
+}
+
+TEST_F(LinkComponentsTest, AMessageWithAGoodChecksumAndInvalidContentGivesNoValue) {
+    verifies("SWR-LCM-008", Technique::kFaultInjection, Polarity::kViolation);
+    std::vector<std::byte> octets(Message::kSizeMin);
+    safety::E2eProtector<Message::Profile> protector(Message::kChannel, 2U);
+    ASSERT_TRUE(encode_protected<Message>(Cloud{}, protector, {octets.data(), octets.size()}).has_value());
+    octets[octets.size() - 5U] = std::byte{2};  // the boolean of the last field but one
+    safety::E2eProtector<Message::Profile> again(Message::kChannel, 2U);
+    ASSERT_EQ(again.protect(get_protected_part(Span<std::byte>(octets.data(), octets.size()))), Status::kOk);
+    deliver(octets);
+
+    EXPECT_FALSE(receive());
+    EXPECT_EQ(get_news().damaged, 1U);
+    EXPECT_EQ(get_news().used, 0U);
+}
+
+TEST_F(LinkComponentsTest, MessagesOfASecondSenderOnTheChannelAreCountedAndGiveNoValue) {
+    verifies("SWR-LCM-008", Technique::kFaultInjection, Polarity::kViolation);
+    FakeSink other_sink{};
+    LinkSender<Message> other("other", other_sink);
+    for (int i = 0; i < 20; ++i) {
+        send(i);
+        deliver(sink_.last);
+        ASSERT_TRUE(receive());
+        ASSERT_EQ(get_mark(), i);
+
+        Cloud foreign{};
+        foreign.last.f = -1;
+        source_.write(foreign);
+        ++now_;
+        ASSERT_TRUE(source_.publish(Instant{now_}));
+        other.in.take(source_.get_published_sample());
+        ASSERT_EQ(other.on_execute({0, Instant{now_}}), Status::kOk);
+        other.in.mark_read();
+        deliver(other_sink.last);
+        ASSERT_FALSE(receive()) << "cycle " << i;
+    }
+
+    EXPECT_EQ(get_news().unordered, 20U);
+    EXPECT_EQ(get_news().used, 20U);
+}
+
+TEST_F(LinkComponentsTest, ForeignTruncatedAndOversizedMessagesAreReported) {
+    verifies("SWR-LCM-008", Technique::kEquivalenceClasses, Polarity::kViolation);
+    deliver(std::vector<std::byte>(Message::kSizeMin));
+    deliver(std::vector<std::byte>(3U));
+    send(1);
+    std::vector<std::byte> octets = sink_.last;
+    octets.resize(Message::kSizeMax + 1U);
+    deliver(octets);
+
+    EXPECT_FALSE(receive());
+    EXPECT_EQ(get_news().foreign, 1U);
+    EXPECT_EQ(get_news().truncated, 1U);
+    EXPECT_EQ(get_news().oversized, 1U);
+}
+
+TEST_F(LinkComponentsTest, AMessageThatTheTransportDoesNotTakeIsCountedAndDetectedAsLost) {
+    verifies("SWR-LCM-008", Technique::kFaultInjection, Polarity::kViolation);
+    sink_.status = Status::kOutOfResources;
+    send(1);
+    sink_.status = Status::kOk;
+    send(2);
+    deliver(sink_.last);
+
+    EXPECT_TRUE(receive());
+    EXPECT_EQ(sender_.get_failed_count(), 1U);
+    EXPECT_EQ(get_news().lost, 1U);
+}
+
+TEST_F(LinkComponentsTest, MessagesOfAnEarlierRunAreDropped) {
+    verifies("SWR-LCM-008", Technique::kStateTransition, Polarity::kViolation);
+    send(1);
+    deliver(sink_.last);
+
+    EXPECT_EQ(receiver_.on_startup({0, Instant{now_}}), Status::kOk);
+    EXPECT_FALSE(receive());
+}
+
+}  // namespace
+}  // namespace mamori::ports::lcm

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a log of a run replays to the same outputs, and a damaged log is reported with its place. Method:
+// logs in the published format, written by hand; a run with random losses in virtual time is logged and
+// replayed.
+#include "mamori/ports/lcm/log_player.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "mamori/kernel/payload/trace_hash.hpp"
+#include "mamori/ports/lcm/link_components.hpp"
+#include "mamori/trace/verifies.hpp"
+#include "support/random_value.hpp"
+#include "support/sample_types.hpp"
+
+namespace mamori::ports::lcm {
+namespace {
+
+using lcm_sample::Cloud;
+using Message = lcm_sample::CloudMessage;
+using Queue = MessageQueue<Message, 8U>;
+using namespace verification;
+
+constexpr std::int64_t kBeginUs = 1'700'000'000'000'000;  // UTC, as lcm-logger writes it
+
+class LogPlayerTest : public ::testing::Test {
+  protected:
+    void TearDown() override { static_cast<void>(std::remove(path_.c_str())); }
+
+    void add_number(std::uint64_t number, int octets) {
+        for (int i = octets - 1; i >= 0; --i) {
+            log_.push_back(static_cast<char>(number >> (8 * i)));
+        }
+    }
+    void add_event(std::int64_t time_us, const std::string& channel, const std::vector<std::byte>& message) {
+        add_number(0xEDA1DA01U, 4);
+        add_number(event_number_++, 8);
+        add_number(static_cast<std::uint64_t>(kBeginUs + time_us), 8);
+        add_number(channel.size(), 4);
+        add_number(message.size(), 4);
+        log_ += channel;
+        for (const std::byte octet : message) {
+            log_.push_back(std::to_integer<char>(octet));
+        }
+    }
+    Status open() {
+        std::ofstream(path_, std::ios::binary) << log_;
+        return player_.open(path_.c_str());
+    }
+    std::vector<std::byte> make_message(const Cloud& value) {
+        std::vector<std::byte> octets(Message::kSizeMax);
+        const Result<std::size_t> size =
+            encode_protected<Message>(value, protector_, {octets.data(), octets.size()});
+        octets.resize(size.get_value());
+        return octets;
+    }
+
+    std::string path_{::testing::TempDir() + "mamori_log_player_" + std::to_string(::getpid())};
+    std::string log_{};
+    std::uint64_t event_number_{0U};
+    safety::E2eProtector<Message::Profile> protector_{Message::kChannel};
+    Queue queue_;
+    LogPlayer player_;
+};
+
+/// Hash over all that a receiver gives in one run.
+class ReceivingRun final {
+  public:
+    explicit ReceivingRun(Queue& queue) noexcept : receiver_("receiver", queue, {50U}) {}
+
+    void execute(Instant now) {
+        EXPECT_EQ(receiver_.on_execute({0, now}), Status::kOk);
+        if (receiver_.out.publish(now)) {
+            ++values_;
+            hash_(now.ns);
+            hash_.add(receiver_.out.get_published());
+        }
+        EXPECT_TRUE(receiver_.news.publish(now));
+        hash_.add(receiver_.news.get_published());
+    }
+    std::uint64_t get_hash() const { return hash_.get_value(); }
+    int get_values() const { return values_; }
+
+  private:
+    LinkReceiver<Message, Queue> receiver_;
+    TraceHash hash_{};
+    int values_{0};
+};
+
+TEST_F(LogPlayerTest, ALoggedRunReplaysToTheSameOutputs) {
+    verifies("SWR-LCM-012", Technique::kBackToBack, Polarity::kNominal);
+    constexpr int kCycles = 5000;
+    constexpr std::int64_t kCycleUs = 1000;
+    std::mt19937_64 random(3U);
+    ReceivingRun original(queue_);
+    for (int cycle = 0; cycle < kCycles; ++cycle) {
+        // Lost, repeated, damaged, foreign and good messages, 0 .. 3 in a cycle; the first event is at 0.
+        for (std::uint64_t count = cycle == 0 ? 1U : random() % 4U; count > 0U; --count) {
+            std::vector<std::byte> octets = make_message(lcm_sample::make_random<Cloud>(random));
+            const std::uint64_t kind = random() % 16U;
+            if (kind == 0U) {
+                continue;
+            }
+            if (kind <= 2U) {
+                octets[random() % octets.size()] ^= std::byte{4};
+            }
+            for (int copy = kind == 3U ? 2 : 1; copy > 0; --copy) {
+                add_event(cycle * kCycleUs, "STATE", octets);
+                queue_.put({octets.data(), octets.size()});
+            }
+            add_event(cycle * kCycleUs, "OTHER", octets);
+        }
+        original.execute(Instant{cycle * kCycleUs * 1000});
+    }
+
+    Queue queue;
+    ReceivingRun replay(queue);
+    ASSERT_EQ(player_.receive("STATE", queue), Status::kOk);
+    ASSERT_EQ(open(), Status::kOk);
+    Status status = Status::kOk;
+    for (int cycle = 0; cycle < kCycles; ++cycle) {
+        status = player_.deliver_until(Instant{cycle * kCycleUs * 1000});
+        ASSERT_NE(status, Status::kError) << player_.get_offset();
+        replay.execute(Instant{cycle * kCycleUs * 1000});
+    }
+    EXPECT_EQ(status, Status::kPreconditionNotMet);
+    EXPECT_EQ(player_.get_event_count(), event_number_);
+    EXPECT_GT(original.get_values(), kCycles / 2);
+    EXPECT_EQ(replay.get_values(), original.get_values());
+    EXPECT_EQ(replay.get_hash(), original.get_hash());
+}
+
+TEST_F(LogPlayerTest, EventsAreDeliveredAtTheirInstantAndNotBefore) {
+    verifies("SWR-LCM-012", Technique::kBoundaryValues, Polarity::kNominal);
+    add_event(0, "STATE", make_message(Cloud{}));
+    add_event(1000, "STATE", make_message(Cloud{}));
+    add_event(400, "STATE", make_message(Cloud{}));  // the clock of the logger was set back
+    ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
+    ASSERT_EQ(open(), Status::kOk);
+
+    EXPECT_EQ(player_.deliver_until(Instant{-1000}), Status::kOk);
+    EXPECT_EQ(queue_.get_counts().accepted, 0U);
+    EXPECT_EQ(player_.deliver_until(Instant{0}), Status::kOk);
+    EXPECT_EQ(queue_.get_counts().accepted, 1U);
+    EXPECT_EQ(player_.deliver_until(Instant{999'999}), Status::kOk);
+    EXPECT_EQ(queue_.get_counts().accepted, 1U);
+    EXPECT_EQ(player_.deliver_until(Instant{1'000'000}), Status::kPreconditionNotMet);
+    EXPECT_EQ(queue_.get_counts().accepted, 3U);
+}
+
+TEST_F(LogPlayerTest, WhatIsNoLogIsRejected) {
+    verifies("SWR-LCM-012", Technique::kEquivalenceClasses, Polarity::kViolation);
+    EXPECT_EQ(player_.open("/nonexistent/log"), Status::kError);
+    EXPECT_EQ(player_.open("/"), Status::kError);
+    EXPECT_EQ(open(), Status::kError);  // empty
+    log_ = "no log, although it is longer than a header";
+    EXPECT_EQ(open(), Status::kError);
+    EXPECT_EQ(player_.deliver_until(Instant{0}), Status::kPreconditionNotMet);
+    log_.clear();
+    add_event(0, "STATE", {});
+    EXPECT_EQ(open(), Status::kOk);
+    EXPECT_EQ(open(), Status::kPreconditionNotMet);
+}
+
+TEST_F(LogPlayerTest, ALogThatIsCutAnywhereIsReportedAfterTheEventsBeforeTheCut) {
+    verifies("SWR-LCM-012", Technique::kFaultInjection, Polarity::kViolation);
+    add_event(0, "STATE", make_message(Cloud{}));
+    const std::size_t first = log_.size();
+    add_event(1, "STATE", make_message(Cloud{}));
+    const std::string whole = log_;
+    ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
+
+    for (std::size_t size = first + 1U; size < whole.size(); ++size) {
+        log_ = whole.substr(0U, size);
+        ASSERT_EQ(open(), Status::kOk);
+        EXPECT_EQ(player_.deliver_until(Instant{1'000'000}), Status::kError) << size;
+        EXPECT_EQ(player_.get_offset(), first);
+        EXPECT_EQ(player_.get_event_count(), 1U);
+        player_.close();
+    }
+    EXPECT_EQ(queue_.get_counts().accepted, whole.size() - first - 1U);
+}
+
+TEST_F(LogPlayerTest, LongNamesLargeMessagesAndRandomOctetsAreHandled) {
+    verifies("SWR-LCM-012", Technique::kBoundaryValues, Polarity::kViolation);
+    add_event(0, "STATE", std::vector<std::byte>(LogPlayer::kMessageMax + 10'000U));
+    add_event(0, std::string(LogPlayer::kChannelNameMax, 'a'), make_message(Cloud{}));
+    const std::size_t good = log_.size();
+    add_event(0, std::string(LogPlayer::kChannelNameMax + 1U, 'a'), make_message(Cloud{}));
+    ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
+    ASSERT_EQ(open(), Status::kOk);
+    EXPECT_EQ(player_.deliver_until(Instant{0}), Status::kError);
+    EXPECT_EQ(player_.get_offset(), good);
+    EXPECT_EQ(queue_.get_counts().oversized, 1U);
+    player_.close();
+
+    const std::string event = log_.substr(good);
+    std::mt19937_64 random(5U);
+    for (int i = 0; i < 300; ++i) {
+        log_ = event;
+        log_[random() % 28U] = static_cast<char>(random());
+        if (open() == Status::kOk) {
+            static_cast<void>(player_.deliver_until(Instant{0}));
+        }
+        player_.close();
+    }
+    EXPECT_EQ(queue_.get_counts().accepted, 0U);
+}
+
+TEST_F(LogPlayerTest, MoreChannelsThanTheLimitAreRejected) {
+    verifies("SWR-LCM-012", Technique::kBoundaryValues, Polarity::kViolation);
+    for (std::size_t i = 0U; i < LogPlayer::kChannelsMax; ++i) {
+        ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
+    }
+    EXPECT_EQ(player_.receive("STATE", queue_), Status::kOutOfResources);
+}
+
+}  // namespace
+}  // namespace mamori::ports::lcm
