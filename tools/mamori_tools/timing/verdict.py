@@ -90,7 +90,7 @@ class _Core:
             if thread == UNKNOWN_THREAD:
                 blame.add(NOT_KNOWN, "", end - begin)
             elif int(one["process"]) == IDLE:
-                blame.add(OUTSIDE, "the processor was idle or of the host", end - begin)
+                blame.add(OUTSIDE, "the processor was idle (the host did not run the program)", end - begin)
             elif not self._is_own(thread):
                 blame.add(OUTSIDE, f"{self.switches.name(thread, int(one['process']))} ran", end - begin)
             elif thread == self.log.runner:
@@ -99,7 +99,7 @@ class _Core:
                 blame.add(COMPONENT, working, end - begin)
             elif self.get_priority(thread) < priority:
                 # It ran because the waiting thread did not want to run yet, or was kept from it by the host.
-                blame.add(OUTSIDE, "the host did not wake the thread of the window", end - begin)
+                blame.add(OUTSIDE, "a thread of lower priority ran (the host did not wake the thread of the window)", end - begin)
             else:
                 blame.add(OWN_PROCESS, f"{self.switches.name(thread, int(one['process']))} ran", end - begin)
         blame.add(NOT_KNOWN, "", end_ns - covered)

@@ -3,14 +3,16 @@
 # Method: one window with six instances whose states are given.
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from timing_run import make_run, make_switches, make_table, write_run, write_switches
+from timing_run import make_program, make_run, make_switches, make_table, prepare, write_run, write_switches
 
+from mamori_tools.command.main import main
 from mamori_tools.timing.reader import COMPLETED, OPENING, STEP, Measurement, read_measurement
 from mamori_tools.timing.states import list_state_components, list_state_findings, list_state_notes, list_states
 from mamori_tools.timing.switches import NO_STATE
@@ -58,6 +60,26 @@ def test_times_are_separate_for_each_state_that_occurred(tmp_path: Path) -> None
 ])  # fmt: skip
 def test_leaving_an_operating_state_is_a_finding(tmp_path: Path, states: list[int], finding: str) -> None:
     assert list_state_findings(read(tmp_path, states)) == ([finding] if finding else [])
+
+
+@pytest.mark.verifies("SWR-TIM-046", technique="interface", polarity="violation")
+@pytest.mark.parametrize(("last", "status"), [(MOVING, 0), (STARTING, 1)])
+def test_run_that_left_its_operating_state_is_not_accepted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+                                                           last: int, status: int) -> None:  # fmt: skip
+    monkeypatch.setattr("mamori_tools.timing.picture.draw_report", lambda report, folder: [])
+    prepare(tmp_path)
+    whole = tmp_path / "data" / "whole"
+    run = json.loads((whole / "run.json").read_text(encoding="utf-8"))
+    (whole / "run.json").write_text(json.dumps(run | {"switches": make_switches(windows=3, errno=1), "states": STATES}), encoding="utf-8")
+    write_switches(whole, 300, [(US, 0, 0)] * 400, [], [MOVING] * 150 + [last] + [MOVING] * 149)
+    program, baseline = make_program(tmp_path), tmp_path / "baseline.toml"
+
+    ended = main(["timing", str(program), "--cycles", "100", "--out", str(tmp_path / "out"), "--accept", str(baseline)])
+
+    assert (ended, baseline.exists()) == (status, status == 0)
+    said = capsys.readouterr()
+    assert ("finding: the system left its operating state 'moving' in cycle" in said.out) == (status == 1)
+    assert ("not accepted" in said.err) == (status == 1)
 
 
 @pytest.mark.verifies("SWR-TIM-046", technique="equivalence_classes")

@@ -75,13 +75,15 @@ struct TimingResult {
 /// Exit status of the program for `mamori timing`: 0, 130, 2, 1 in the order of TimingOutcome.
 int get_exit_status(TimingOutcome outcome) noexcept;
 
-/// Runs all cores in parallel, each on its own processor, and writes table.json, openings.npy, steps.npy and
-/// run.json (docs/design/timing.md#files) to the folder. SIGINT and SIGTERM end the run early; during writing
-/// they are ignored. After the last window, outstanding work has at most one second to return.
+/// Runs all cores in parallel, each on its own processor, and writes table.json, openings.npy, steps.npy,
+/// window_use.npy, step_use.npy, slices.npy and run.json (docs/design/timing.md#files) to the folder. SIGINT
+/// and SIGTERM end the run early; during writing they are ignored. A handler of SIGCONT is replaced during
+/// the run, and the default action applies afterwards. After the last window, outstanding work has at most
+/// one second to return.
 ///
 /// Calling context: the main thread of a program, once per process. Work that hangs permanently keeps its
-/// memory. Memory: heap, locked if the process has the privilege; about 30 bytes per window instance and 40
-/// per step.
+/// memory. Memory: heap, locked if the process has the privilege; about 80 bytes per window instance and 60
+/// per step, and 9 MB per core.
 /// @param[in] cores one per core of the table, in the same order.
 TimingResult run_timing(const std::vector<TimedCore>& cores, const TimingOptions& options);
 
