@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -301,7 +302,7 @@ TEST(MachineTest, SecondMachineOfTheProcessIsRefusedWhileTheFirstRuns) {
 TEST(MachineTest, OptionOutsideItsRangeIsRefused) {
     verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kViolation);
     const auto run = [](const MachineOptions& options, std::uint64_t frames = 1U) {
-        Machine<kRefused>* const sut = new Machine<kRefused>{options};  // never deleted: see Machine
+        const auto sut = std::make_unique<Machine<kRefused>>(options);
         const Status status = sut->run(frames);
         const bool is_named = sut->get_report().failed_step == MachineStep::kOptions;
         EXPECT_EQ(is_named, status == Status::kBadParameter);
