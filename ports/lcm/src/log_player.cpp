@@ -117,9 +117,8 @@ LogPlayer::State LogPlayer::read_event() noexcept {
     size_ = size;
     end_ = offset_ + kHeaderSize + name_size + size;
     // As unsigned numbers, because a damaged log has any instants.
-    const auto time_us = static_cast<std::int64_t>(load<std::uint64_t>(header.data() + 12U) -
-                                                   static_cast<std::uint64_t>(first_us_));
-    due_us_ = time_us > due_us_ || event_count_ == 0U ? time_us : due_us_;
+    due_us_ = static_cast<std::int64_t>(load<std::uint64_t>(header.data() + 12U) -
+                                        static_cast<std::uint64_t>(first_us_));
     return State::kPending;
 }
 

@@ -132,7 +132,10 @@ TEST(LcmCodecTest, TruncatedAndExtendedMessagesAreRejectedWithoutAChange) {
     Small value{};
 
     for (std::size_t length = 0U; length < good.size(); ++length) {
-        EXPECT_EQ(decode_lcm({good.data(), length}, value), Status::kBadParameter) << length;
+        // A copy of exactly this length, so that the address sanitizer sees each octet that is read behind
+        // it.
+        const Octets truncated(good.data(), good.data() + length);
+        EXPECT_EQ(decode_small(truncated, value), Status::kBadParameter) << length;
     }
     Octets longer = good;
     longer.push_back(std::byte{0});
@@ -174,6 +177,16 @@ TEST(LcmCodecTest, InvalidContentIsRejectedWithoutAChange) {
         EXPECT_EQ(decode_small(octets, value), Status::kBadParameter) << invalid.place;
         EXPECT_EQ(encode_all(value), encode_all(Small{})) << invalid.place;
     }
+}
+
+TEST(LcmCodecTest, AStringWithoutRoomForItsNulIsRejectedAtTheEndOfAMessage) {
+    verifies("SWR-LCM-004", Technique::kBoundaryValues, Polarity::kViolation);
+    Octets octets = encode_all(Small{});
+    octets.pop_back();
+    octets.back() = std::byte{0};  // length 0
+    Small value{};
+
+    EXPECT_EQ(decode_small(octets, value), Status::kBadParameter);
 }
 
 TEST(LcmCodecTest, RandomOctetsNeverGiveAValueThatEncodesDifferently) {

@@ -113,6 +113,35 @@ TEST_F(LinkComponentsTest, EachLostMessageIsCountedUpToTheLimit) {
     EXPECT_EQ(get_news().lost, 2U);
 }
 
+TEST_F(LinkComponentsTest, AValueArrivesAlsoIfALaterMessageOfTheSameCycleIsRefused) {
+    verifies("SWR-LCM-008", Technique::kEquivalenceClasses, Polarity::kNominal);
+    send(7);
+    deliver(sink_.last);
+    deliver(sink_.last);
+
+    EXPECT_TRUE(receive());
+    EXPECT_EQ(get_mark(), 7);
+    EXPECT_EQ(get_news().unordered, 1U);
+}
+
+TEST_F(LinkComponentsTest, AnOldMessageAfterALongSilenceClosesTheChannel) {
+    verifies("SWR-LCM-008", Technique::kBoundaryValues, Polarity::kViolation);
+    const std::vector<std::byte> old = sink_.last;
+    send(1);
+    deliver(sink_.last);
+    ASSERT_TRUE(receive());
+    deliver(old);
+    EXPECT_FALSE(receive());
+    EXPECT_FALSE(get_news().is_closed);
+
+    for (int cycle = 0; cycle < 300; ++cycle) {
+        ASSERT_FALSE(receive());
+    }
+    deliver(old);
+    EXPECT_FALSE(receive());
+    EXPECT_TRUE(get_news().is_closed);
+}
+
 TEST_F(LinkComponentsTest, ARestartFindsTheOrderAgain) {
     verifies("SWR-LCM-008", Technique::kStateTransition, Polarity::kNominal);
     for (int i = 0; i < 4; ++i) {
