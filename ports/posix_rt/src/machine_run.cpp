@@ -37,10 +37,11 @@ bool is_valid(const MachineOptions& options, const MachineParts& parts) noexcept
     const GridLimits& watch = options.watch;
     const bool is_watch_valid = watch.lateness >= Duration{0} && watch.period > Duration{0} &&
                                 watch.rate.span > Duration{0} && watch.rate.limit_ppm > 0;
-    // Half of the timeout, because the sum of two spans can overflow.
+    // By subtraction, because a sum of options can overflow.
+    const std::int64_t left =
+        options.watchdog_timeout.ns > 0 ? options.watchdog_timeout.ns - options.lead.ns : 0;
     return is_watch_valid && options.lead > Duration{0} && options.priority >= MachineOptions::kPriorityMin &&
-           options.priority <= MachineOptions::kPriorityMax &&
-           options.watchdog_timeout.ns / 2 - frame.ns > watch.period.ns &&
+           options.priority <= MachineOptions::kPriorityMax && left / 2 - frame.ns > watch.period.ns &&
            (options.processors.empty() || options.processors.size() >= parts.hosts.size()) &&
            (options.recorder == nullptr || options.recorder_capacity > 0U);
 }
@@ -244,7 +245,12 @@ Status MachineRun::run(const MachineParts& parts, const MachineOptions& options,
         return fail(MachineStep::kSignals, installed);
     }
     const Status status = run_protected(parts, options, frames);
+    close_outputs(this);  // also after a failed start
     signals.remove();
+    for (CoreRunner& runner : parts.runners) {
+        runner.resume();
+    }
+    is_stop_wanted_.store(false, std::memory_order_relaxed);
     report_.signal = signal_.load();
     report_.signalled = Instant{report_.signal == 0 ? 0 : signal_ns_.load() - clock_->get_epoch_ns()};
     report_.until_closed = Duration{report_.signal == 0 ? 0 : closed_ns_.load() - signal_ns_.load()};
@@ -309,8 +315,8 @@ Status MachineRun::run_watched(const MachineParts& parts, const MachineOptions& 
                     {options.priority + MachineOptions::kPriorityStep, ThreadPlace::kAnyProcessor}};
     SoftwareWatchdog watchdog{
         *clock_, {Duration{0}, options.watchdog_timeout}, {gate.close, gate.argument, true}};
-    const Instant next = clock_->get_now() + options.lead;
-    const Instant from = has_run_ ? next : Instant{0};
+    const std::int64_t next = (clock_->get_now() + options.lead).ns / frame_.ns + 1;
+    const Instant from{has_run_ ? next * frame_.ns : 0};
     has_run_ = true;
     for (std::size_t core = 0U; core < parts.threads.size(); ++core) {
         parts.beats[core].expect(from);
@@ -327,6 +333,8 @@ Status MachineRun::run_watched(const MachineParts& parts, const MachineOptions& 
              watchdog.open({options.priority + 2 * MachineOptions::kPriorityStep, ThreadPlace::kAnyProcessor},
                            options.device));
     if (status == Status::kOk) {
+        // From here on, so that the watchdog also detects a hang in the first frame.
+        static_cast<void>(watchdog.service(clock_->get_now()));
         watch_ = &watch;
         watchdog_ = &watchdog;
         served_look_count_ = 0U;
@@ -397,9 +405,7 @@ void MachineRun::collect(const MachineParts& parts) noexcept {
         sum.missed += counts.missed;
         sum.worst_lateness =
             counts.worst_lateness > sum.worst_lateness ? counts.worst_lateness : sum.worst_lateness;
-        runner.resume();
     }
-    is_stop_wanted_.store(false, std::memory_order_relaxed);
     report_.longest_sample = parts.devices.get_longest_sample();
     report_.longest_apply = parts.devices.get_longest_apply();
 }

@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <string>
 #include <thread>
@@ -330,7 +331,9 @@ TEST(MachineTest, OptionOutsideItsRangeIsRefused) {
     options.watch.rate.limit_ppm = 0;
     EXPECT_EQ(run(options), Status::kBadParameter);
     options = make_options();
-    options.watchdog_timeout = 24_ms;  // two frames and two polls
+    options.watchdog_timeout = 29_ms;  // lead, two frames and two polls
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options.watchdog_timeout = Duration{std::numeric_limits<std::int64_t>::min()};
     EXPECT_EQ(run(options), Status::kBadParameter);
     options = make_options();
     options.recorder = "unused.rec";
@@ -356,11 +359,13 @@ TEST(MachineTest, FailureOfAComponentNamesTheStep) {
     static Machine<kFailsAtStart> starts{make_options()};
     static Machine<kFailsAtStop> stops{make_options()};
     SpyDevices devices;
+    g_closed = 0;
     g_counter_kFailsAtStart.starts = Status::kUnsupported;
     g_counter_kFailsAtStop.stops = Status::kOutOfResources;
 
     EXPECT_EQ(starts.run(1U, devices), Status::kUnsupported);
     EXPECT_EQ(starts.get_report().failed_step, MachineStep::kStart);
+    EXPECT_EQ(g_closed, 1);
     EXPECT_TRUE(devices.sampled.empty());
     EXPECT_EQ(stops.run(1U, devices), Status::kOutOfResources);
     EXPECT_EQ(stops.get_report().failed_step, MachineStep::kStop);
@@ -414,7 +419,7 @@ TEST(MachineDeathTest, ThreadThatHangsExpiresTheWatchdog) {
 
     EXPECT_EXIT(static_cast<void>(sut.run(5U,
                                           [](std::uint64_t frame) {
-                                              while (frame == 1U) {
+                                              while (frame == 0U) {
                                                   std::this_thread::yield();
                                               }
                                           })),

@@ -7,6 +7,7 @@ Status MachineBase::run(ExecutiveGroup& executives, Span<SimulatedCore> cores, s
                         Devices& devices) noexcept {
     const Status started = executives.start();
     if (started != Status::kOk) {
+        is_stop_wanted_.store(false, std::memory_order_relaxed);
         return started;
     }
     FrameRunner runner{cores, devices, frame_count_};
