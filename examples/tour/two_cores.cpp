@@ -56,7 +56,7 @@ static constexpr auto kSystem = mamori::system(
     mamori::connect(axis.angle, planner.angle, mamori::through(to_planner), mamori::fresh_within(5_ms)),
     mamori::connect(planner.setpoint, axis.setpoint, mamori::through(to_axis), mamori::fresh_within(5_ms)),
     mamori::modelled_time(axis, 100_us), mamori::modelled_time(planner, 5_ms));
-static mamori::ports::virtual_time::Machine<kSystem> machine;  // in real time: posix_rt::Machine
+static mamori::ports::virtual_time::Machine<kSystem> machine;
 
 /// Makes the planner slow in the third major frame, and prints.
 class Observer final : public mamori::Devices {

@@ -5,6 +5,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <optional>
 
@@ -16,9 +17,10 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-/// Written before the first handler is there and left alone as long as one is.
-std::optional<CrashPlan> plan_storage;
-const CrashPlan* plan{nullptr};
+/// The plan in force, and storage for the next one.
+std::array<std::optional<CrashPlan>, 2U> plan_storage;
+std::atomic<const CrashPlan*> plan_in_force{nullptr};
+static_assert(std::atomic<const CrashPlan*>::is_always_lock_free);
 std::atomic<bool> is_plan_taken{false};
 
 /// Not the function of the C library, which is a place to end a cancelled thread at.
@@ -26,10 +28,10 @@ void write_back(Span<std::byte> file) noexcept {
     static_cast<void>(::syscall(SYS_msync, file.data(), file.size(), MS_SYNC));
 }
 
-CrashNote make_note(int signal, const siginfo_t& info) noexcept {
+CrashNote make_note(const CrashPlan& plan, int signal, const siginfo_t& info) noexcept {
     CrashNote note;
-    note.time = plan->clock.get_now();
-    note.session = plan->session;
+    note.time = plan.clock.get_now();
+    note.session = plan.session;
     note.place = get_crash_place();
     note.signal = static_cast<std::uint8_t>(signal);
     // Linux gives its own causes a number above 0; otherwise the address is no address.
@@ -52,10 +54,11 @@ void on_crash(int signal, siginfo_t* info, void*) {
         end_by(signal);
         return;
     }
-    plan->close_outputs(plan->context);
-    if (!plan->file.empty()) {
-        write_crash_note(plan->file, make_note(signal, *info));
-        write_back(plan->file);
+    const CrashPlan& plan = *plan_in_force.load(std::memory_order_acquire);
+    plan.close_outputs(plan.context);
+    if (!plan.file.empty()) {
+        write_crash_note(plan.file, make_note(plan, signal, *info));
+        write_back(plan.file);
     }
     detail::wait_for_failed_check();
     end_by(signal);
@@ -79,7 +82,7 @@ Status CrashHandlers::install(const CrashPlan& wanted) noexcept {
     if (is_plan_taken.exchange(true)) {
         return Status::kPreconditionNotMet;
     }
-    plan = &plan_storage.emplace(wanted);
+    plan_in_force.store(&plan_storage[0U].emplace(wanted), std::memory_order_release);
     detail::install_failure_gate();
     struct sigaction action{};
     action.sa_sigaction = &on_crash;
@@ -93,6 +96,18 @@ Status CrashHandlers::install(const CrashPlan& wanted) noexcept {
         MAMORI_ENSURE(3, ::sigaction(kCrashSignals[i], &action, &previous_[i]) == 0);
     }
     is_installed_ = true;
+    return Status::kOk;
+}
+
+Status CrashHandlers::replace(const CrashPlan& wanted) noexcept {
+    if (!is_usable(wanted)) {
+        return Status::kBadParameter;
+    }
+    if (!is_installed_) {
+        return Status::kPreconditionNotMet;
+    }
+    const bool is_first = plan_in_force.load(std::memory_order_relaxed) == &*plan_storage[0U];
+    plan_in_force.store(&plan_storage[is_first ? 1U : 0U].emplace(wanted), std::memory_order_release);
     return Status::kOk;
 }
 

@@ -38,9 +38,10 @@ bool is_valid(const MachineOptions& options, const MachineParts& parts) noexcept
     const bool is_watch_valid = watch.lateness >= Duration{0} && watch.period > Duration{0} &&
                                 watch.rate.span > Duration{0} && watch.rate.limit_ppm > 0;
     // By subtraction, because a sum of options can overflow.
-    const std::int64_t left =
-        options.watchdog_timeout.ns > 0 ? options.watchdog_timeout.ns - options.lead.ns : 0;
-    return is_watch_valid && options.lead > Duration{0} && options.priority >= MachineOptions::kPriorityMin &&
+    const bool is_positive = options.lead > Duration{0} && options.watchdog_timeout > Duration{0};
+    const std::int64_t left = is_positive ? options.watchdog_timeout.ns - options.lead.ns : 0;
+    return is_watch_valid && is_positive && options.window_stack >= kThreadStackMin &&
+           options.runner_stack >= kThreadStackMin && options.priority >= MachineOptions::kPriorityMin &&
            options.priority <= MachineOptions::kPriorityMax && left / 2 - frame.ns > watch.period.ns &&
            (options.processors.empty() || options.processors.size() >= parts.hosts.size()) &&
            (options.recorder == nullptr || options.recorder_capacity > 0U);
@@ -75,7 +76,9 @@ Status close_hosts(Span<GuardedHost> hosts) noexcept {
     return result;
 }
 
+/// The threads of windows inherit the block: work that hangs must not receive a stop signal.
 Status open_hosts(Span<GuardedHost> hosts, int runner_priority) noexcept {
+    const SignalBlock block;
     for (std::size_t core = 0U; core < hosts.size(); ++core) {
         const Status status = hosts[core].open(runner_priority);
         if (status != Status::kOk) {
@@ -158,20 +161,46 @@ Status MachineRun::fail(MachineStep step, Status status) noexcept {
     return status;
 }
 
-void MachineRun::record(MachineEvent event, Severity severity, std::int64_t argument) noexcept {
+void MachineRun::record(Instant time, MachineEvent event, Severity severity, std::int64_t argument) noexcept {
     if (recorder_.is_open()) {
-        recorder_.write(clock_->get_now(), severity, kMachineSource, static_cast<std::uint16_t>(event),
-                        argument);
+        recorder_.write(time, severity, kMachineSource, static_cast<std::uint16_t>(event), argument);
     }
+}
+
+void MachineRun::note_signal() noexcept {
+    report_.signal = signal_.load();
+    if (report_.signal != 0) {
+        const std::int64_t between = closed_ns_.load() - signal_ns_.load();
+        report_.signalled = Instant{signal_ns_.load() - clock_->get_epoch_ns()};
+        // A signal can come after the outputs were closed for another reason.
+        report_.until_closed = Duration{between > 0 ? between : 0};
+    }
+}
+
+/// Before the stop, in which a component can crash.
+void MachineRun::record_end_of_frames() noexcept {
+    note_signal();
+    const Instant now = clock_->get_now();
+    if (report_.signal != 0 || is_stop_wanted_.load(std::memory_order_relaxed)) {
+        record(report_.signal != 0 ? report_.signalled : now, MachineEvent::kStopRequested, Severity::kInfo,
+               report_.signal);
+    }
+    record(Instant{closed_ns_.load() - clock_->get_epoch_ns()}, MachineEvent::kOutputsClosed, Severity::kInfo,
+           report_.until_closed.ns);
 }
 
 void MachineRun::close_outputs(void* self) noexcept {
     MachineRun& run = *static_cast<MachineRun*>(self);
+    if (run.are_outputs_closed_.load()) {
+        return;
+    }
+    // Also while another thread is in this call: that thread may not get the processor again.
+    if (run.outputs_.close != nullptr) {
+        run.outputs_.close(run.outputs_.argument);
+    }
+    const std::int64_t now = get_monotonic_clock().read_ns();
     if (!run.are_outputs_closed_.exchange(true)) {
-        if (run.outputs_.close != nullptr) {
-            run.outputs_.close(run.outputs_.argument);
-        }
-        run.closed_ns_.store(get_monotonic_clock().read_ns());
+        run.closed_ns_.store(now);
     }
 }
 
@@ -192,8 +221,8 @@ void MachineRun::on_stop_signal(int signal) noexcept {
     if (signal_.compare_exchange_strong(none, signal)) {
         signal_ns_.store(now);
     }
-    close_outputs(this);
     request_stop();
+    close_outputs(this);
 }
 
 void MachineRun::end_frame(Instant now) noexcept {
@@ -201,6 +230,9 @@ void MachineRun::end_frame(Instant now) noexcept {
     if (look_count != served_look_count_) {
         served_look_count_ = look_count;
         static_cast<void>(watchdog_->service(now));  // an expired watchdog ends the process
+    }
+    if (watch_->is_latched()) {
+        request_stop();
     }
 }
 
@@ -239,6 +271,8 @@ Status MachineRun::run(const MachineParts& parts, const MachineOptions& options,
     }
     outputs_ = options.outputs;
     signal_.store(0);
+    signal_ns_.store(0);
+    closed_ns_.store(0);
     are_outputs_closed_.store(false);
     StopSignals signals;
     if (const Status installed = signals.install(*this); installed != Status::kOk) {
@@ -247,19 +281,13 @@ Status MachineRun::run(const MachineParts& parts, const MachineOptions& options,
     const Status status = run_protected(parts, options, frames);
     close_outputs(this);  // also after a failed start
     signals.remove();
+    note_signal();
+    is_stop_wanted_.store(false, std::memory_order_relaxed);
     for (CoreRunner& runner : parts.runners) {
         runner.resume();
     }
-    is_stop_wanted_.store(false, std::memory_order_relaxed);
-    report_.signal = signal_.load();
-    report_.signalled = Instant{report_.signal == 0 ? 0 : signal_ns_.load() - clock_->get_epoch_ns()};
-    report_.until_closed = Duration{report_.signal == 0 ? 0 : closed_ns_.load() - signal_ns_.load()};
-    if (report_.signal != 0) {
-        record(MachineEvent::kStopRequested, Severity::kInfo, report_.signal);
-    }
-    record(MachineEvent::kOutputsClosed, Severity::kInfo, report_.until_closed.ns);
-    record(MachineEvent::kStopped, status == Status::kOk ? Severity::kInfo : Severity::kFault,
-           static_cast<std::int64_t>(status));
+    record(clock_->get_now(), MachineEvent::kStopped,
+           status == Status::kOk ? Severity::kInfo : Severity::kFault, static_cast<std::int64_t>(status));
     if (report_.signal != 0) {
         signals.forward(report_.signal);
     }
@@ -269,15 +297,20 @@ Status MachineRun::run(const MachineParts& parts, const MachineOptions& options,
 Status MachineRun::run_protected(const MachineParts& parts, const MachineOptions& options,
                                  std::uint64_t frames) noexcept {
     CrashStack stack;
-    static_cast<void>(
-        stack.take());  // without it, an exhausted stack of this thread ends the process unrecorded
+    // Without it, an exhausted stack of this thread ends the process unrecorded.
+    static_cast<void>(stack.take());
     CrashHandlers handlers;
-    const auto install = [this, &handlers] {
-        return handlers.install(
-            {&MachineRun::close_outputs, this, file_.get_region(), recorder_.get_session(), *clock_});
+    const auto make_plan = [this] {
+        return CrashPlan{&MachineRun::close_outputs, this, file_.get_region(), recorder_.get_session(),
+                         *clock_};
     };
-    if (const Status installed = install(); installed != Status::kOk) {
+    if (const Status installed = handlers.install(make_plan()); installed != Status::kOk) {
         return fail(MachineStep::kCrashHandlers, installed);
+    }
+    if (has_run_ && has_returned(parts)) {
+        // Ends what work that hung at the end of the last run has held up.
+        static_cast<void>(parts.executives.stop());
+        static_cast<void>(close_hosts(parts.hosts));
     }
     if (const Status opened = open_hosts(parts.hosts, options.priority); opened != Status::kOk) {
         return fail(MachineStep::kWindowThreads, opened);
@@ -289,13 +322,14 @@ Status MachineRun::run_protected(const MachineParts& parts, const MachineOptions
         runners_ = parts.runners;
         frame_ = parts.executives.get(0U).get_view().frame;
         has_clock_.store(true, std::memory_order_release);
-        handlers.remove();
-        MAMORI_ENSURE(5, install() == Status::kOk);
+        MAMORI_ENSURE(5, handlers.replace(make_plan()) == Status::kOk);
     }
     if (status == Status::kOk) {
-        record(MachineEvent::kStarted, Severity::kInfo, static_cast<std::int64_t>(parts.executives.size()));
+        record(clock_->get_now(), MachineEvent::kStarted, Severity::kInfo,
+               static_cast<std::int64_t>(parts.executives.size()));
         status = run_watched(parts, options, frames);
         close_outputs(this);
+        record_end_of_frames();
         const Status stopped = fail(MachineStep::kStop, stop(parts));
         status = status == Status::kOk ? stopped : status;
     } else {
@@ -324,6 +358,7 @@ Status MachineRun::run_watched(const MachineParts& parts, const MachineOptions& 
         parts.threads[core].beat = &parts.beats[core];
         parts.threads[core].from = from;
         parts.threads[core].frames = frames;
+        parts.threads[core].watched = core == parts.first_core ? this : nullptr;
     }
     if (const Status opened = watch.open(); opened != Status::kOk) {
         return fail(MachineStep::kWatch, opened);
@@ -333,20 +368,18 @@ Status MachineRun::run_watched(const MachineParts& parts, const MachineOptions& 
              watchdog.open({options.priority + 2 * MachineOptions::kPriorityStep, ThreadPlace::kAnyProcessor},
                            options.device));
     if (status == Status::kOk) {
-        // From here on, so that the watchdog also detects a hang in the first frame.
-        static_cast<void>(watchdog.service(clock_->get_now()));
         watch_ = &watch;
         watchdog_ = &watchdog;
         served_look_count_ = 0U;
         status = run_threads(parts, options);
-        close_outputs(this);  // before the watches end
-        static_cast<void>(watchdog.close());
+        close_outputs(this);
+        static_cast<void>(watchdog.close());  // without effect after the runner of the first core
     }
     watch.close();
     report_.finding = watch.get_finding();
     report_.priority = combine(watch.get_right(), combine(watchdog.get_priority_right(), report_.priority));
     if (watch.is_latched()) {
-        record(MachineEvent::kWatchFinding, Severity::kFault,
+        record(report_.finding.seen, MachineEvent::kWatchFinding, Severity::kFault,
                static_cast<std::int64_t>(report_.finding.fault));
         status = status == Status::kOk ? fail(MachineStep::kFrames, Status::kError) : status;
     }
@@ -357,8 +390,17 @@ void* MachineRun::serve(void* argument) noexcept {
     const RunnerThread& thread = *static_cast<const RunnerThread*>(argument);
     CrashStack stack;
     static_cast<void>(stack.take());
+    if (thread.watched != nullptr) {
+        // From here on, so that the watchdog also detects a hang in the first frame.
+        static_cast<void>(thread.watched->watchdog_->service(thread.watched->clock_->get_now()));
+    }
     thread.runner->run(thread.frames, thread.from);
     thread.beat->rest();
+    if (thread.watched != nullptr) {
+        // Here, because the calling thread of run() may not get the processor before the timeout.
+        close_outputs(thread.watched);
+        static_cast<void>(thread.watched->watchdog_->close());
+    }
     return nullptr;
 }
 

@@ -87,7 +87,8 @@ std::size_t PartitionOutput::forward_stream(Stream& stream, int target) noexcept
     std::size_t count = 0U;
     std::array<char, 4096U> part{};
     while (count < kForwardMax) {
-        const ssize_t length = ::read(stream.reading, part.data(), part.size());
+        const std::size_t left = kForwardMax - count;
+        const ssize_t length = ::read(stream.reading, part.data(), left < part.size() ? left : part.size());
         if (length <= 0) {
             break;  // nothing is there; a signal that comes in between leaves it for the next call
         }

@@ -335,6 +335,25 @@ void crash_in_a_window(void (*crash)() noexcept) {
     }
 }
 
+TEST_F(CrashHandlersTest, ReplacedPlanIsFollowed) {
+    verifies("SWR-PRT-026", Technique::kInterface, Polarity::kNominal);
+    const int status = run([this](Child& child) {
+        CrashHandlers other;
+        CrashPlan plan{&Shared::close_outputs, shared_, child.file.get_region(), 77U, child.clock};
+        bool is_ok = other.replace(plan) == Status::kPreconditionNotMet;
+        plan.close_outputs = nullptr;
+        is_ok = is_ok && child.handlers.replace(plan) == Status::kBadParameter;
+        plan.close_outputs = &Shared::close_outputs;
+        for (int i = 0; i < 3; ++i) {
+            is_ok = is_ok && child.handlers.replace(plan) == Status::kOk;
+            ++plan.session;
+        }
+        static_cast<void>(is_ok && ::raise(SIGSEGV) == 0);
+    });
+    expect_killed_by(status, SIGSEGV);
+    EXPECT_EQ(read_note().session, 79U);
+}
+
 TEST_F(CrashHandlersTest, CrashOfAComponentIsToldByItsPlaceInTheTable) {
     verifies("SWR-PRT-027", Technique::kFaultInjection, Polarity::kViolation);
     const int status = run([](Child&) {

@@ -315,7 +315,17 @@ TEST(MachineTest, OptionOutsideItsRangeIsRefused) {
     EXPECT_EQ(run(options), Status::kBadParameter);
     options.priority = MachineOptions::kPriorityMax + 1;
     EXPECT_EQ(run(options), Status::kBadParameter);
+    options.priority = std::numeric_limits<int>::min();
+    EXPECT_EQ(run(options), Status::kBadParameter);
     options = make_options();
+    options.window_stack = kThreadStackMin - 1U;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.runner_stack = kThreadStackMin - 1U;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.lead = Duration{std::numeric_limits<std::int64_t>::min()};
+    EXPECT_EQ(run(options), Status::kBadParameter);
     options.lead = Duration{0};
     EXPECT_EQ(run(options), Status::kBadParameter);
     options = make_options();
@@ -382,7 +392,14 @@ TEST(MachineTest, WorkThatHangsAtTheEndIsReportedAndTheNextRunIsRefusedUntilItRe
     EXPECT_EQ(sut.get_report().openings.overran + sut.get_report().openings.missed, 1U);
     EXPECT_EQ(sut.run(1U), Status::kPreconditionNotMet);
     EXPECT_EQ(sut.get_report().failed_step, MachineStep::kWindowThreads);
+
     g_counter_kHangs.is_to_hang = false;
+    Status status = Status::kPreconditionNotMet;
+    for (int i = 0; i < 500 && status != Status::kOk; ++i) {  // until the work has returned
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        status = sut.run(1U);
+    }
+    EXPECT_EQ(status, Status::kOk);
 }
 
 TEST(MachineTest, FindingOfTheScheduleWatchClosesTheOutputs) {
@@ -393,7 +410,7 @@ TEST(MachineTest, FindingOfTheScheduleWatchClosesTheOutputs) {
     g_closed = 0;
     int closed = 0;
 
-    EXPECT_EQ(sut.run(2U,
+    EXPECT_EQ(sut.run(MachineRun::kAllFrames,
                       [&closed](std::uint64_t) {
                           std::this_thread::sleep_for(std::chrono::milliseconds{200});
                           closed = g_closed;

@@ -3,7 +3,7 @@
 /// Sensors and actuators around a system. A simulated plant and real devices implement the same interface, so
 /// a program attaches them in the same way in virtual and in real time.
 ///
-/// @satisfies SWR-KRN-073      Design: docs/design/conformance.md#lockstep
+/// @satisfies SWR-KRN-073      Design: docs/design/kernel.md#machine
 #ifndef MAMORI_KERNEL_DEVICES_HPP
 #define MAMORI_KERNEL_DEVICES_HPP
 
@@ -20,13 +20,15 @@ namespace mamori {
 ///                  other cores only in virtual time.
 class Devices {
   public:
-    /// Called before the first window of the major frame: read sensors, apply faults that are due.
+    /// Called before the first window of the major frame, in real time of the first core: read sensors, apply
+    /// faults that are due.
     /// @param[in] frame number of the major frame, 0, 1, ... @param[in] start its planned start.
     virtual void sample(std::uint64_t frame, Instant start) noexcept {
         static_cast<void>(frame);
         static_cast<void>(start);
     }
-    /// Called after the last window of the major frame: forward outputs, advance a simulated plant.
+    /// Called after the last window of the major frame, in real time of the first core: forward outputs,
+    /// advance a simulated plant.
     /// @param[in] length of the major frame.
     virtual void apply(std::uint64_t frame, Instant start, Duration length) noexcept {
         static_cast<void>(frame);

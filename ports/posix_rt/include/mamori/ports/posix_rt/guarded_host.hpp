@@ -37,8 +37,7 @@ class WindowThread final {
     /// Sets the stack of the thread for the next GuardedHost::open(). It holds the frames of all components
     /// of the window and up to kThreadStackMin of the C library and a signal frame.
     /// @param[in] size [byte]; the thread gets at least kThreadStackMin and whole pages. 0 (initially): the
-    /// size
-    ///            in the ThreadPlace of the host.
+    ///            size in the ThreadPlace of the host.
     /// @return kOk; kPreconditionNotMet (the thread runs).
     Status set_stack_size(std::size_t size) noexcept;
     /// @return the size that was set [byte]; 0: that of the host.

@@ -59,10 +59,11 @@ class Machine<kTable, std::index_sequence<kCores...>> final {
     /// SIGINT, SIGTERM or request_stop() end the run earlier. A later call continues on the same time line.
     /// @param[in] frames > 0.
     /// @return kOk; else get_report() names the failed step: kBadParameter (options or frames are out of
-    ///         range); kOutOfResources (no thread, or no space for the recorder file); kPreconditionNotMet
-    ///         (another machine or other CrashHandlers are active in this process, or work of a window still
-    ///         hangs); kError (the schedule watch closed the outputs); or the failure of
-    ///         MappedFile::open(), FlightRecorder::open(), ExecutiveGroup::start() or stop().
+    ///         range, or the calling thread has a fixed priority that the watches are not above);
+    ///         kOutOfResources (no thread, or no space for the recorder file); kPreconditionNotMet (another
+    ///         machine or other CrashHandlers are active in this process, or work of a window still hangs);
+    ///         kError (the schedule watch closed the outputs); or the failure of MappedFile::open(),
+    ///         FlightRecorder::open(), ExecutiveGroup::start() or stop().
     Status run(std::uint64_t frames, Devices& devices) noexcept {
         const SystemView view = make_view(kTable);
         DeviceCaller caller{view, kFirstCore, devices, clock_, run_};
@@ -72,7 +73,8 @@ class Machine<kTable, std::index_sequence<kCores...>> final {
         for (std::size_t core = 0U; core < kCoreCount; ++core) {
             runners_[core].set_observer(&beats[core]);
         }
-        return run_.run({executives_, clock_, hosts_, runners_, beats, threads, caller}, options_, frames);
+        return run_.run({executives_, clock_, hosts_, runners_, beats, threads, caller, kFirstCore}, options_,
+                        frames);
     }
     /// Runs until SIGINT, SIGTERM or request_stop().
     Status run(Devices& devices) noexcept { return run(MachineRun::kAllFrames, devices); }
@@ -102,7 +104,9 @@ class Machine<kTable, std::index_sequence<kCores...>> final {
   private:
     static ThreadPlace get_place(const MachineOptions& options, std::size_t core) noexcept {
         const bool is_placed = core < options.processors.size();
-        return {options.priority - MachineOptions::kPriorityStep,
+        // A priority out of range is rejected by run(); here, the difference must not overflow.
+        const bool is_valid = options.priority >= MachineOptions::kPriorityMin;
+        return {is_valid ? options.priority - MachineOptions::kPriorityStep : 0,
                 is_placed ? options.processors[core] : ThreadPlace::kAnyProcessor, options.window_stack};
     }
 

@@ -24,8 +24,9 @@ namespace mamori::ports::posix_rt {
 /// Settings of a machine. Each default suits a system of a few milliseconds per major frame on a shared host.
 struct MachineOptions {
     /// Disables the outputs permanently: at a signal, a crash, an expired watchdog, a finding of the schedule
-    /// watch, and at the end of each run. Called at most once per run, on any thread or in a signal handler:
-    /// system calls and stores only, nothing that waits. Without a function, there are no outputs to close.
+    /// watch, and at the end of each run. Called on any thread or in a signal handler; called again by
+    /// another thread while a call has not returned: system calls and stores only, nothing that waits.
+    /// Without a function, there are no outputs to close.
     OutputGate outputs{};
     /// SCHED_FIFO priority of the threads that run the windows, kPriorityMin .. kPriorityMax. The windows run
     /// kPriorityStep below, the schedule watch kPriorityStep above, and the watchdog above that.
@@ -44,8 +45,9 @@ struct MachineOptions {
     /// The process ends (abort()) with closed outputs if the thread of the first core, or the schedule watch,
     /// does not run for this time. More than the lead, two polls of the watch and two major frames together.
     Duration watchdog_timeout{1'000'000'000};
-    /// Device that supervises the watchdog: open, and disarmed by its owner after the run; nullptr: none.
-    /// Must outlive the machine.
+    /// Device that supervises the watchdog: open, and disarmed by its owner after the run; nullptr: none. It
+    /// is served from the first window on until the last one. Its timeout must exceed the start and the stop
+    /// of the system, with 1 s for work that hangs. Must outlive the machine.
     WatchdogDevice* device{nullptr};
     /// File of a flight recorder that receives start, stop, signals, findings and crashes of each run;
     /// nullptr: none. Created if it does not exist. Must outlive the machine.
@@ -98,7 +100,7 @@ struct MachineReport {
 inline constexpr std::uint16_t kMachineSource = 0xFFFFU;
 enum class MachineEvent : std::uint16_t {
     kStarted = 1U,        ///< argument: number of cores
-    kStopRequested = 2U,  ///< argument: signal, or 0
+    kStopRequested = 2U,  ///< argument: signal, or 0 for request_stop()
     kOutputsClosed = 3U,  ///< argument: time since the handler of the signal [ns], or 0
     kWatchFinding = 4U,   ///< argument: GridFault
     kStopped = 5U,        ///< argument: Status

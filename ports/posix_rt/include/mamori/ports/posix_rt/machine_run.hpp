@@ -59,6 +59,7 @@ class DeviceCaller final : public OpeningObserver {
 struct RunnerThread {
     CoreRunner* runner{nullptr};
     GridBeat* beat{nullptr};
+    MachineRun* watched{nullptr};  ///< of the first core: serves the watchdog of this run; else nullptr
     Instant from{};
     std::uint64_t frames{0U};
     pthread_t thread{};
@@ -74,6 +75,7 @@ struct MachineParts {
     Span<GridBeat> beats;
     Span<RunnerThread> threads;
     const DeviceCaller& devices;
+    std::size_t first_core;  ///< the core that calls the devices
 };
 
 /// Thread safety: request_stop() from any thread or signal handler; all other functions from one thread.
@@ -93,8 +95,8 @@ class MachineRun final : public StopListener {
     void on_stop_signal(int signal) noexcept override;
     const MachineReport& get_report() const noexcept { return report_; }
 
-    /// A major frame of the first core has ended: serves the watchdog if the schedule watch works and has no
-    /// finding. Called by DeviceCaller.
+    /// A major frame of the first core has ended: serves the watchdog if the schedule watch has polled since
+    /// the last service, and ends the run after a finding of the watch. Called by DeviceCaller.
     void end_frame(Instant now) noexcept;
 
   private:
@@ -107,7 +109,9 @@ class MachineRun final : public StopListener {
     Status run_threads(const MachineParts& parts, const MachineOptions& options) noexcept;
     Status stop(const MachineParts& parts) noexcept;
     void collect(const MachineParts& parts) noexcept;
-    void record(MachineEvent event, Severity severity, std::int64_t argument) noexcept;
+    void record(Instant time, MachineEvent event, Severity severity, std::int64_t argument) noexcept;
+    void note_signal() noexcept;
+    void record_end_of_frames() noexcept;
     static void close_outputs(void* self) noexcept;
     static void* serve(void* thread) noexcept;
 

@@ -18,10 +18,10 @@ namespace mamori::ports::posix_rt {
 /// A pipe for each of the two streams of one partition, which stays open when the partition is started again.
 ///
 /// Calling context: an ordinary thread, never a window. Thread safety: none.
-/// Time:            no function waits for the partition. forward() waits for its targets, as their writer
-/// does;
-///                  it takes at most kForwardMax bytes of each stream, so a flood does not hold it up. While
-///                  no thread calls forward(), the partition waits as soon as its pipe is full.
+/// Time:            no function waits for the partition. forward() waits for its targets, as each writer
+/// does.
+///                  It takes at most kForwardMax bytes of each stream, so its time is bounded in a flood.
+///                  While no thread calls forward(), the partition waits as soon as its pipe is full.
 /// Memory:          one line per stream; no heap.
 class PartitionOutput final {
   public:
@@ -45,6 +45,7 @@ class PartitionOutput final {
 
     /// Writes all lines that are complete, each with one call of write(). Control characters become '?',
     /// since a partition could change the lines of others by them; tabs stay, carriage returns are left out.
+    /// A target whose reader has ended raises SIGPIPE in this process: ignore this signal.
     /// @param[in] output, errors descriptors, STDOUT_FILENO and STDERR_FILENO for example; both may be one.
     /// @return bytes that were read; 0: there was nothing.
     std::size_t forward(int output, int errors) noexcept;

@@ -85,11 +85,12 @@ enum class PartitionState : std::uint8_t { kNone, kRunning, kEnded };
 ///                  ends, so that thread must stay.
 /// Children:        this class waits for its own child only. Before Linux 6.9, no other thread may wait for
 /// it
-///                  or let the system do so (waitpid(-1), SIGCHLD ignored): a group is killed by its number
-///                  there, right after a look whether the child still holds this number.
-/// Thread safety:   none. Time: start() takes as long as the system needs for a new program, the destructor
-/// as
-///                  long as it needs to end one, the others O(1) without waiting. Memory: none of its own.
+///                  or let the system do so (waitpid(-1), SIGCHLD ignored), because a group is killed by its
+///                  number there, directly after a check that the child still holds this number.
+/// Thread safety:   none.
+/// Time:            start() takes as long as the system needs for a new program, and the destructor as long
+///                  as it needs to end one. The other functions are O(1) and do not wait.
+/// Memory:          none of its own.
 class PartitionProcess final {
   public:
     PartitionProcess() noexcept = default;

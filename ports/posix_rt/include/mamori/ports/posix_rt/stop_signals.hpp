@@ -37,7 +37,8 @@ class StopSignals final {
     ~StopSignals() { remove(); }
 
     /// A signal that is ignored (SIG_IGN), as a shell does for background programs, stays ignored.
-    /// @param[in] listener must outlive the installation.
+    /// @param[in] listener must outlive the process: a handler may still run on another
+    ///            thread after remove().
     /// @return kOk; kPreconditionNotMet (an object is installed in this process).
     Status install(StopListener& listener) noexcept;
     /// Restores the previous handlers. Without an installation, there is no effect.
