@@ -43,7 +43,7 @@ struct MachineOptions {
     /// must be below the lateness that the controlled robot tolerates.
     GridLimits watch{Duration{100'000'000}, Duration{10'000'000}, {Duration{1'000'000'000}, 5000}};
     /// The process ends (abort()) with closed outputs if the thread of the first core, or the schedule watch,
-    /// does not run for this time. More than the lead, two polls of the watch and two major frames together.
+    /// does not run for this time. More than `lead`, two polls of the watch and two major frames together.
     Duration watchdog_timeout{1'000'000'000};
     /// Device that supervises the watchdog: open, and disarmed by its owner after the run; nullptr: none. It
     /// is served from the first window on until the last one. Its timeout must exceed the start and the stop
