@@ -8,10 +8,13 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <pthread.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <atomic>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -152,6 +155,38 @@ TEST_F(FrameLinkTest, AMessageLongerThanTheSenderWasMadeForIsRejected) {
     EXPECT_EQ(send(std::vector<std::byte>(Message::kSizeMax)), Status::kOk);
     EXPECT_EQ(send(std::vector<std::byte>(Message::kSizeMax + 300U)), Status::kBadParameter);
 }
+/// Keeps the stack size of the thread that gives it a message.
+class StackInbox final : public MessageInbox {
+  public:
+    StackInbox() : MessageInbox(kLimitsOf<Message>) {}
+    std::atomic<std::size_t> stack_size{0U};
+
+  private:
+    void store(Span<const std::byte> /*message*/) noexcept override {
+        pthread_attr_t attributes;
+        std::size_t size = 0U;
+        if (::pthread_getattr_np(::pthread_self(), &attributes) == 0) {
+            static_cast<void>(::pthread_attr_getstacksize(&attributes, &size));
+            static_cast<void>(::pthread_attr_destroy(&attributes));
+        }
+        stack_size = size;
+    }
+    std::uint32_t get_overwritten_count() const noexcept override { return 0U; }
+};
+
+TEST_F(FrameLinkTest, TheReceivingThreadHasASmallStackBecauseARealTimeProcessLocksIt) {
+    verifies("SWR-LCM-007", Technique::kBoundaryValues, Polarity::kNominal);
+    StackInbox inbox;
+    FrameReceiverFor<Message> receiver(inbox);
+    ASSERT_EQ(receiver.open_udp("127.0.0.1", 0U), Status::kOk);
+    ASSERT_EQ(sender_.open_udp("127.0.0.1", receiver.get_port()), Status::kOk);
+
+    ASSERT_EQ(send(make_message(1)), Status::kOk);
+    ASSERT_TRUE(wait_until([&] { return inbox.stack_size != 0U; }));
+    EXPECT_GE(inbox.stack_size, 256U * 1024U);
+    EXPECT_LE(inbox.stack_size, 512U * 1024U);  // a sanitizer adds its own part
+}
+
 
 /// Both ends of a pseudo-terminal.
 class SerialLinkTest : public FrameLinkTest {

@@ -75,9 +75,8 @@ class FrameSenderFor final : private detail::FrameStorage<calc_frame_size_max(Me
 /// Receives frames. Use FrameReceiverFor, which has the storage.
 ///
 /// Thread safety: open and close it from one thread. The receiving thread has the default priority and
-/// touches only
-///                the inbox.
-/// Memory:        the storage and the stack of the thread, allocated by the open call; no heap.
+///                touches only the inbox.
+/// Memory:        the storage and the stack of the thread, 256 KiB, allocated by the open call; no heap.
 class FrameReceiver {
   public:
     FrameReceiver(const FrameReceiver&) = delete;

@@ -28,9 +28,9 @@ struct LcmHandle;
 /// One connection to an LCM network. Without liblcm at build time, open() reports LinkFault::kUnsupported.
 ///
 /// Thread safety: open, receive and close it from one thread. The receiving thread, and those that liblcm
-/// starts, have
-///                the default priority and touch only the inboxes.
-/// Memory:        none of its own after open(); liblcm allocates as it wants.
+///                starts, have the default priority and touch only the inboxes.
+/// Memory:        a stack of 256 KiB, allocated by open(); liblcm allocates at any time, and its own threads
+///                have stacks of the default size.
 class LcmLink final {
   public:
     static constexpr std::size_t kChannelsMax = 16U;
