@@ -49,6 +49,8 @@ class FrameDecoder final {
 
     /// Takes the next octet of the stream.
     FrameEvent push(std::byte octet) noexcept;
+    /// Drops the begun frame and the last message, for a new stream.
+    void reset() noexcept;
     /// The message of the last kMessage; valid until the next push().
     Span<const std::byte> get_message() const noexcept { return {buffer_.data(), message_size_}; }
 
