@@ -106,20 +106,26 @@ class LinkReceiver final : public Component {
     /// Drops the messages of an earlier run. @return kOk.
     Status on_startup(ContextHandle) noexcept override {
         Span<const std::byte> message;
-        for (std::size_t i = 0U; i < Queue::kCapacity && queue_.take(message) == Status::kOk; ++i) {
+        for (std::size_t i = 0U; i < Queue::kCapacity && queue_.take(message) != Status::kPreconditionNotMet;
+             ++i) {
         }
         return Status::kOk;
     }
     /// @return kOk, with any content of the messages.
     Status on_execute(ContextHandle) noexcept override {
         bool has_value = false;
-        bool has_message = false;
+        bool is_silent = true;
         Span<const std::byte> message;
-        for (std::size_t i = 0U; i < Queue::kCapacity && queue_.take(message) == Status::kOk; ++i) {
-            has_message = true;
-            has_value = accept(message) || has_value;
+        for (std::size_t i = 0U; i < Queue::kCapacity; ++i) {
+            const Status status = queue_.take(message);
+            if (status == Status::kPreconditionNotMet) {
+                break;
+            }
+            is_silent = false;
+            // With kOutOfResources, the writer was faster: messages wait.
+            has_value = (status == Status::kOk && accept(message)) || has_value;
         }
-        if (!has_message) {
+        if (is_silent) {
             static_cast<void>(checker_.check_silence());
         }
         if (has_value) {
