@@ -31,7 +31,7 @@ struct LinkNews {
     std::uint32_t unordered{
         0U};  ///< intact, but repeated, old or beyond the limit: of a second sender or a replay
     std::uint32_t initial{0U};  ///< intact, with which the receiver found the order; not used
-    std::uint32_t foreign{0U};  ///< of another type or channel
+    std::uint32_t foreign{0U};  ///< of another type
     std::uint32_t truncated{0U};
     std::uint32_t oversized{0U};
     std::uint32_t overwritten{0U};  ///< overwritten in the queue; also counted as lost
