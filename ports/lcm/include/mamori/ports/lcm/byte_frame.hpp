@@ -40,8 +40,8 @@ enum class FrameEvent : std::uint8_t {
 
 /// Finds the frames in a stream of any octets. After any damage, the next undamaged frame is found.
 ///
-/// Thread safety: none. Time: O(1) per octet; the octet that ends a frame O(size of the frame). Memory: the
-/// buffer.
+/// Thread safety: none. Time: O(1) per octet; the octet that ends a frame O(size of the frame).
+/// Memory: the buffer.
 class FrameDecoder final {
   public:
     /// @param[in] buffer for the longest message and kFrameChecksumSize octets; must outlive this object.

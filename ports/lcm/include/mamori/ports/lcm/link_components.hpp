@@ -28,8 +28,8 @@ struct LinkNews {
     std::uint32_t used{0U};     ///< accepted by E2E and decoded
     std::uint32_t lost{0U};     ///< by the counter, missing before an accepted message
     std::uint32_t damaged{0U};  ///< refused by E2E or by the decoder, or a frame that is not well-formed
-    std::uint32_t unordered{
-        0U};  ///< intact, but repeated, old or beyond the limit: of a second sender or a replay
+    /// Intact, but repeated, old or beyond the limit: of a second sender or a replay.
+    std::uint32_t unordered{0U};
     std::uint32_t initial{0U};  ///< intact, with which the receiver found the order; not used
     std::uint32_t foreign{0U};  ///< of another type
     std::uint32_t truncated{0U};
@@ -59,8 +59,8 @@ class LinkSender final : public Component {
     using Ports = mamori::Ports<&LinkSender::in>;
 
     /// @return kOk, also when the transport lost the message, which get_failed_count() counts and the
-    /// receiver
-    ///         detects; kBadParameter (an enumeration of the value holds none of its enumerators).
+    ///         receiver detects; kBadParameter (an enumeration of the value holds none of its enumerators);
+    ///         kPreconditionNotMet (the protector rejects the channel of Message).
     Status on_execute(ContextHandle) noexcept override {
         if (!in.is_new()) {
             return Status::kOk;
@@ -89,8 +89,8 @@ class LinkSender final : public Component {
 /// Reads all waiting messages and gives the newest accepted value to `out`; `out` gets nothing when none was
 /// accepted. `news` tells about every cycle. @tparam Queue MessageQueue of the message.
 ///
-/// Thread safety: none; runs in its window. Time: O(size of kDepth messages), no system call. Memory: one
-/// value.
+/// Thread safety: none; runs in its window. Time: O(size of kDepth messages), no system call.
+/// Memory: one value.
 template <typename Message, typename Queue>
 class LinkReceiver final : public Component {
   public:
