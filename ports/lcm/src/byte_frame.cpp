@@ -78,11 +78,9 @@ Result<std::size_t> encode_frame(Span<const std::byte> message, Span<std::byte> 
 FrameEvent FrameDecoder::push(std::byte octet) noexcept {
     if (octet == std::byte{0U}) {
         const FrameEvent event = finish();
-        message_size_ = event == FrameEvent::kMessage ? size_ - kFrameChecksumSize : 0U;
-        size_ = 0U;
-        left_ = 0U;
-        has_begun_ = false;
-        is_oversized_ = false;
+        const std::size_t message_size = event == FrameEvent::kMessage ? size_ - kFrameChecksumSize : 0U;
+        reset();
+        message_size_ = message_size;
         return event;
     }
     if (left_ > 0U) {
@@ -98,6 +96,14 @@ FrameEvent FrameDecoder::push(std::byte octet) noexcept {
     is_full_block_ = code == kFullCode;
     has_begun_ = true;
     return FrameEvent::kNone;
+}
+
+void FrameDecoder::reset() noexcept {
+    size_ = 0U;
+    message_size_ = 0U;
+    left_ = 0U;
+    has_begun_ = false;
+    is_oversized_ = false;
 }
 
 FrameEvent FrameDecoder::finish() const noexcept {

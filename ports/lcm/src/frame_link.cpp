@@ -29,15 +29,27 @@ constexpr std::array<Speed, 8U> kSpeeds{{{9600U, B9600},
                                          {460800U, B460800},
                                          {921600U, B921600}}};
 
+/// Whether the line works as `wanted`: tcsetattr() succeeds when any of the changes took effect.
+bool is_line_set(int file, const termios& wanted) noexcept {
+    constexpr tcflag_t kControl = CSIZE | CSTOPB | PARENB | CRTSCTS | CREAD | CLOCAL;
+    termios line{};
+    return ::tcgetattr(file, &line) == 0 && ((line.c_cflag ^ wanted.c_cflag) & kControl) == 0U &&
+           line.c_iflag == wanted.c_iflag && line.c_oflag == wanted.c_oflag &&
+           line.c_lflag == wanted.c_lflag && ::cfgetispeed(&line) == ::cfgetispeed(&wanted) &&
+           ::cfgetospeed(&line) == ::cfgetospeed(&wanted);
+}
+
 LinkFault configure_line(int file, std::uint32_t bits_per_s) noexcept {
     for (const Speed& speed : kSpeeds) {
         termios line{};
         if (speed.bits_per_s == bits_per_s && ::tcgetattr(file, &line) == 0) {
-            ::cfmakeraw(&line);
+            ::cfmakeraw(&line);  // does not change the stop bits and the flow control
+            line.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
             line.c_cflag |= CLOCAL | CREAD;
+            line.c_iflag &= ~static_cast<tcflag_t>(IXOFF | IXANY | INPCK);
             const bool is_set = ::cfsetispeed(&line, speed.code) == 0 &&
                                 ::cfsetospeed(&line, speed.code) == 0 &&
-                                ::tcsetattr(file, TCSANOW, &line) == 0;
+                                ::tcsetattr(file, TCSANOW, &line) == 0 && is_line_set(file, line);
             return is_set ? LinkFault::kNone : LinkFault::kLine;
         }
     }
@@ -144,10 +156,15 @@ Status FrameReceiver::open_serial(const char* path, std::uint32_t speed) noexcep
         return Status::kPreconditionNotMet;
     }
     fault_ = open_line(path, speed, O_RDONLY, file_);
-    return fault_ == LinkFault::kNone ? start() : Status::kError;
+    if (fault_ != LinkFault::kNone) {
+        return Status::kError;
+    }
+    static_cast<void>(::tcflush(file_, TCIFLUSH));  // octets from before the open call, at any speed
+    return start();
 }
 
 Status FrameReceiver::start() noexcept {
+    decoder_.reset();
     is_receiving_.store(true, std::memory_order_relaxed);
     if (detail::start_thread(thread_, stop_, &FrameReceiver::serve, this) == Status::kOk) {
         return Status::kOk;

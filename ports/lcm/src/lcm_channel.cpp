@@ -1,36 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstring>
-
+#include "channel_name.hpp"
 #include "mamori/ports/lcm/lcm_link.hpp"
 
 namespace mamori::ports::lcm {
-
-namespace {
-
-/// liblcm takes the name of a channel to receive as a regular expression: only characters without a meaning
-/// there.
-bool is_channel_character(char character) noexcept {
-    return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
-           (character >= '0' && character <= '9') || character == '_' || character == '-' ||
-           character == '/' || character == ':';
-}
-
-bool is_channel(const char* name) noexcept {
-    const std::size_t length = ::strnlen(name, LcmLink::kChannelNameMax + 1U);
-    bool is_valid = length >= 1U && length <= LcmLink::kChannelNameMax;
-    for (std::size_t i = 0U; is_valid && i < length; ++i) {
-        is_valid = is_channel_character(name[i]);
-    }
-    return is_valid;
-}
-
-}  // namespace
 
 Status LcmLink::receive(const char* channel, MessageInbox& inbox) noexcept {
     if (is_open()) {
         return Status::kPreconditionNotMet;
     }
-    if (!is_channel(channel)) {
+    if (!detail::is_channel_name(channel)) {
         fault_ = LinkFault::kChannel;
         return Status::kBadParameter;
     }
@@ -41,6 +19,16 @@ Status LcmLink::receive(const char* channel, MessageInbox& inbox) noexcept {
     channels_[channel_count_] = {channel, &inbox};
     ++channel_count_;
     return Status::kOk;
+}
+
+Status LcmSender::open() noexcept {
+    is_open_ = detail::is_channel_name(channel_);
+    fault_ = is_open_ ? LinkFault::kNone : LinkFault::kChannel;
+    return is_open_ ? Status::kOk : Status::kBadParameter;
+}
+
+Status LcmSender::send(Span<const std::byte> message) noexcept {
+    return is_open_ ? link_.publish(channel_, message) : Status::kPreconditionNotMet;
 }
 
 }  // namespace mamori::ports::lcm

@@ -9,11 +9,19 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
 
 #include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::ports::lcm::detail {
+
+namespace {
+
+/// Not the 8 MiB of the usual limit, which mlockall() of a real-time process would lock.
+constexpr std::size_t kStackSize = 256U * 1024U;
+
+}  // namespace
 
 Status start_thread(pthread_t& thread, int& stop, ThreadCall call, void* argument) noexcept {
     const int event = ::eventfd(0U, EFD_CLOEXEC);
@@ -30,6 +38,7 @@ Status start_thread(pthread_t& thread, int& stop, ThreadCall call, void* argumen
     MAMORI_ENSURE(3, ::pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED) == 0);
     MAMORI_ENSURE(4, ::pthread_attr_setschedpolicy(&attributes, SCHED_OTHER) == 0);
     MAMORI_ENSURE(5, ::pthread_attr_setschedparam(&attributes, &priority) == 0);
+    MAMORI_ENSURE(11, ::pthread_attr_setstacksize(&attributes, kStackSize) == 0);
     // The thread, and the threads that LCM starts in it, inherit the mask: signals go to other threads.
     MAMORI_ENSURE(6, ::pthread_sigmask(SIG_SETMASK, &all, &before) == 0);
     const int error = ::pthread_create(&thread, &attributes, call, argument);

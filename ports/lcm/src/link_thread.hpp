@@ -15,7 +15,8 @@ namespace mamori::ports::lcm::detail {
 
 using ThreadCall = void* (*)(void*);
 
-/// Starts `call(argument)` at the default priority, which no window has, with any priority of the caller.
+/// Starts `call(argument)` at the default priority, which no window has, with any priority of the caller. Its
+/// stack has 256 KiB.
 /// @param[out] stop descriptor that becomes readable in stop_thread(). @return kOk; kError.
 Status start_thread(pthread_t& thread, int& stop, ThreadCall call, void* argument) noexcept;
 

@@ -9,6 +9,8 @@
 #include <limits>
 #include <utility>
 
+#include "channel_name.hpp"
+
 namespace mamori::ports::lcm {
 
 namespace {
@@ -38,11 +40,17 @@ std::size_t read_all(int file, void* target, std::size_t size) noexcept {
 }  // namespace
 
 Status LogPlayer::receive(const char* channel, MessageInbox& inbox) noexcept {
+    if (!detail::is_channel_name(channel)) {
+        fault_ = LinkFault::kChannel;
+        return Status::kBadParameter;
+    }
     if (channel_count_ == kChannelsMax) {
+        fault_ = LinkFault::kSubscribe;
         return Status::kOutOfResources;
     }
     channels_[channel_count_] = {channel, &inbox};
     ++channel_count_;
+    fault_ = LinkFault::kNone;
     return Status::kOk;
 }
 

@@ -8,9 +8,13 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <pthread.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <termios.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
@@ -53,6 +57,13 @@ class FrameLinkTest : public ::testing::Test {
         return octets;
     }
     Status send(const std::vector<std::byte>& octets) { return sender_.send({octets.data(), octets.size()}); }
+    static std::vector<std::byte> make_frame(const std::vector<std::byte>& message) {
+        std::vector<std::byte> frame(calc_frame_size_max(message.size()));
+        const Result<std::size_t> size =
+            encode_frame({message.data(), message.size()}, {frame.data(), frame.size()});
+        frame.resize(size.get_value());
+        return frame;
+    }
     /// @return content of the next message; -1 when none comes.
     int receive() {
         Span<const std::byte> message;
@@ -144,6 +155,38 @@ TEST_F(FrameLinkTest, TheReceivingThreadHasNoRealTimePriorityEvenIfItsCreatorHas
     EXPECT_EQ(threads.real_time, 0);
 }
 
+/// Keeps the stack size of the thread that gives it a message.
+class StackInbox final : public MessageInbox {
+  public:
+    StackInbox() : MessageInbox(kLimitsOf<Message>) {}
+    std::atomic<std::size_t> stack_size{0U};
+
+  private:
+    void store(Span<const std::byte> /*message*/) noexcept override {
+        pthread_attr_t attributes;
+        std::size_t size = 0U;
+        if (::pthread_getattr_np(::pthread_self(), &attributes) == 0) {
+            static_cast<void>(::pthread_attr_getstacksize(&attributes, &size));
+            static_cast<void>(::pthread_attr_destroy(&attributes));
+        }
+        stack_size = size;
+    }
+    std::uint32_t get_overwritten_count() const noexcept override { return 0U; }
+};
+
+TEST_F(FrameLinkTest, TheReceivingThreadHasASmallStackBecauseARealTimeProcessLocksIt) {
+    verifies("SWR-LCM-007", Technique::kBoundaryValues, Polarity::kNominal);
+    StackInbox inbox;
+    FrameReceiverFor<Message> receiver(inbox);
+    ASSERT_EQ(receiver.open_udp("127.0.0.1", 0U), Status::kOk);
+    ASSERT_EQ(sender_.open_udp("127.0.0.1", receiver.get_port()), Status::kOk);
+
+    ASSERT_EQ(send(make_message(1)), Status::kOk);
+    ASSERT_TRUE(wait_until([&] { return inbox.stack_size != 0U; }));
+    EXPECT_GE(inbox.stack_size, 256U * 1024U);
+    EXPECT_LE(inbox.stack_size, 512U * 1024U);  // a sanitizer adds its own part
+}
+
 TEST_F(FrameLinkTest, AMessageLongerThanTheSenderWasMadeForIsRejected) {
     verifies("SWR-LCM-009", Technique::kBoundaryValues, Polarity::kViolation);
     ASSERT_EQ(receiver_.open_udp("127.0.0.1", 0U), Status::kOk);
@@ -151,6 +194,32 @@ TEST_F(FrameLinkTest, AMessageLongerThanTheSenderWasMadeForIsRejected) {
 
     EXPECT_EQ(send(std::vector<std::byte>(Message::kSizeMax)), Status::kOk);
     EXPECT_EQ(send(std::vector<std::byte>(Message::kSizeMax + 300U)), Status::kBadParameter);
+}
+
+TEST_F(FrameLinkTest, AFrameThatWasCutBeforeASecondOpenIsForgotten) {
+    verifies("SWR-LCM-009", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(receiver_.open_udp("127.0.0.1", 0U), Status::kOk);
+    const int other = ::socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_port = htons(receiver_.get_port());
+    ASSERT_EQ(::inet_pton(AF_INET, "127.0.0.1", &place.sin_addr), 1);
+    std::vector<std::byte> octets = make_frame(make_message(1));
+    const std::vector<std::byte> frame = make_frame(make_message(2));
+    octets.insert(octets.end(), frame.begin(),
+                  frame.begin() + static_cast<std::ptrdiff_t>(frame.size() / 2U));
+    ASSERT_EQ(
+        ::sendto(other, octets.data(), octets.size(), 0, reinterpret_cast<sockaddr*>(&place), sizeof place),
+        static_cast<ssize_t>(octets.size()));
+    ASSERT_EQ(::close(other), 0);
+    ASSERT_EQ(receive(), 1);
+    receiver_.close();
+
+    ASSERT_EQ(receiver_.open_udp("127.0.0.1", 0U), Status::kOk);
+    ASSERT_EQ(sender_.open_udp("127.0.0.1", receiver_.get_port()), Status::kOk);
+    ASSERT_EQ(send(make_message(3)), Status::kOk);
+    EXPECT_EQ(receive(), 3);
+    EXPECT_EQ(queue_.get_counts().damaged, 0U);
 }
 
 /// Both ends of a pseudo-terminal.
@@ -162,8 +231,13 @@ class SerialLinkTest : public FrameLinkTest {
         ASSERT_EQ(::grantpt(master_), 0);
         ASSERT_EQ(::unlockpt(master_), 0);
         path_ = ::ptsname(master_);
+        line_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
+        ASSERT_GE(line_, 0);
     }
     void TearDown() override {
+        if (line_ >= 0) {
+            ::close(line_);
+        }
         if (master_ >= 0) {
             ::close(master_);
         }
@@ -171,15 +245,14 @@ class SerialLinkTest : public FrameLinkTest {
     void write(const std::vector<std::byte>& octets) const {
         ASSERT_EQ(::write(master_, octets.data(), octets.size()), static_cast<ssize_t>(octets.size()));
     }
-    static std::vector<std::byte> make_frame(const std::vector<std::byte>& message) {
-        std::vector<std::byte> frame(calc_frame_size_max(message.size()));
-        const Result<std::size_t> size =
-            encode_frame({message.data(), message.size()}, {frame.data(), frame.size()});
-        frame.resize(size.get_value());
-        return frame;
+    termios get_settings() const {
+        termios line{};
+        EXPECT_EQ(::tcgetattr(line_, &line), 0);
+        return line;
     }
 
     int master_{-1};
+    int line_{-1};  ///< keeps the settings and the octets of the line
     std::string path_{};
 };
 
@@ -215,6 +288,55 @@ TEST_F(SerialLinkTest, AFullLineLosesMessagesAndDoesNotWait) {
         status = send(make_message(i));
     }
     EXPECT_EQ(status, Status::kOutOfResources);
+}
+
+TEST_F(SerialLinkTest, SettingsOfAnEarlierProgramDoNotRemain) {
+    verifies("SWR-LCM-007", Technique::kFaultInjection, Polarity::kViolation);
+    constexpr tcflag_t kControl = CSTOPB | CRTSCTS | PARENB | CSIZE;
+    constexpr tcflag_t kInput = IXON | IXOFF | IXANY | INPCK;
+    termios line = get_settings();
+    line.c_cflag |= CSTOPB | CRTSCTS;
+    line.c_iflag |= kInput;
+    ASSERT_EQ(::tcsetattr(line_, TCSANOW, &line), 0);
+    ASSERT_EQ(get_settings().c_cflag & (CSTOPB | CRTSCTS), static_cast<tcflag_t>(CSTOPB | CRTSCTS));
+    ASSERT_EQ(get_settings().c_iflag & kInput, kInput);
+
+    ASSERT_EQ(sender_.open_serial(path_.c_str(), kSpeed), Status::kOk);
+    EXPECT_EQ(get_settings().c_cflag & kControl, static_cast<tcflag_t>(CS8));
+    EXPECT_EQ(get_settings().c_iflag & kInput, 0U);
+}
+
+TEST_F(SerialLinkTest, ALineThatKeepsOneOfItsSettingsIsReported) {
+    verifies("SWR-LCM-010", Technique::kFaultInjection, Polarity::kViolation);
+    for (const tcflag_t kept : {static_cast<tcflag_t>(CSTOPB), static_cast<tcflag_t>(B9600)}) {
+        termios line = get_settings();
+        line.c_cflag = (line.c_cflag & ~static_cast<tcflag_t>(CBAUD)) | B9600 | kept;
+        ASSERT_EQ(::tcsetattr(line_, TCSANOW, &line), 0);
+        termios locked{};
+        locked.c_cflag = kept == CSTOPB ? kept : static_cast<tcflag_t>(CBAUD);
+        if (::ioctl(line_, TIOCSLCKTRMIOS, &locked) != 0) {
+            GTEST_SKIP() << "to lock a setting of a line needs root";
+        }
+
+        EXPECT_EQ(receiver_.open_serial(path_.c_str(), kSpeed), Status::kError) << kept;
+        EXPECT_EQ(receiver_.get_fault(), LinkFault::kLine) << kept;
+    }
+}
+
+TEST_F(SerialLinkTest, OctetsFromBeforeTheOpenCallAreNotReceived) {
+    verifies("SWR-LCM-009", Technique::kStateTransition, Polarity::kViolation);
+    termios line = get_settings();
+    ::cfmakeraw(&line);
+    ASSERT_EQ(::tcsetattr(line_, TCSANOW, &line), 0);
+    const std::vector<std::byte> old = make_frame(make_message(1));
+    write(old);
+    int waiting = 0;
+    ASSERT_TRUE(wait_until(
+        [&] { return ::ioctl(line_, FIONREAD, &waiting) == 0 && waiting == static_cast<int>(old.size()); }));
+
+    ASSERT_EQ(receiver_.open_serial(path_.c_str(), kSpeed), Status::kOk);
+    write(make_frame(make_message(2)));
+    EXPECT_EQ(receive(), 2);
 }
 
 TEST_F(SerialLinkTest, AnUnpluggedDeviceEndsTheReception) {

@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -70,6 +71,8 @@ TEST_F(LcmLinkTest, MessagesOfTheChannelArriveAndOthersDoNot) {
     ASSERT_EQ(link_.open("memq://"), Status::kOk);
     LcmSender sender(link_, "STATE");
     LcmSender other(link_, "STATES");
+    ASSERT_EQ(sender.open(), Status::kOk);
+    ASSERT_EQ(other.open(), Status::kOk);
     safety::E2eProtector<Message::Profile> protector(Message::kChannel);
     std::vector<std::byte> octets(Message::kSizeMax);
     const Result<std::size_t> size =
@@ -91,6 +94,7 @@ TEST_F(LcmLinkTest, ForeignTruncatedAndOversizedMessagesAreCounted) {
     ASSERT_EQ(link_.receive("STATE", queue_), Status::kOk);
     ASSERT_EQ(link_.open("memq://"), Status::kOk);
     LcmSender sender(link_, "STATE");
+    ASSERT_EQ(sender.open(), Status::kOk);
     std::vector<std::byte> octets(Message::kSizeMax + 100'000U);
     const std::uint64_t fingerprint = Message::kFingerprint;
 
@@ -135,11 +139,30 @@ TEST_F(LcmLinkTest, AnInvalidChannelAndOneTooManyAreRejected) {
     EXPECT_EQ(link_.get_fault(), LinkFault::kSubscribe);
 }
 
+TEST_F(LcmLinkTest, ASenderWithAnInvalidChannelDoesNotOpenAndSendsNothing) {
+    verifies("SWR-LCM-010", Technique::kEquivalenceClasses, Polarity::kViolation);
+    ASSERT_EQ(link_.open("memq://"), Status::kOk);
+    const std::string longer(LcmLink::kChannelNameMax + 1U, 'a');
+    const std::array<std::byte, 8U> message{};
+    for (const char* name : {"", "STATE.*", "a b", longer.c_str()}) {
+        LcmSender sender(link_, name);
+        EXPECT_EQ(sender.open(), Status::kBadParameter) << name;
+        EXPECT_EQ(sender.get_fault(), LinkFault::kChannel) << name;
+        EXPECT_EQ(sender.send({message.data(), message.size()}), Status::kPreconditionNotMet) << name;
+    }
+    LcmSender good(link_, "STATE");
+    EXPECT_EQ(good.send({message.data(), message.size()}), Status::kPreconditionNotMet);  // not opened
+    EXPECT_EQ(good.open(), Status::kOk);
+    EXPECT_EQ(good.get_fault(), LinkFault::kNone);
+    EXPECT_EQ(good.send({message.data(), message.size()}), Status::kOk);
+}
+
 TEST_F(LcmLinkTest, ALogOfTheOfficialLibraryIsReplayed) {
     verifies("SWR-LCM-012", Technique::kBackToBack, Polarity::kNominal);
     const std::string path = ::testing::TempDir() + "mamori_lcm_log_" + std::to_string(::getpid());
     ASSERT_EQ(link_.open(("file://" + path + "?mode=w").c_str()), Status::kOk);
     LcmSender sender(link_, "STATE");
+    ASSERT_EQ(sender.open(), Status::kOk);
     safety::E2eProtector<Message::Profile> protector(Message::kChannel);
     std::vector<std::byte> octets(Message::kSizeMax);
     for (int i = 0; i < 100; ++i) {
@@ -231,6 +254,7 @@ TEST_F(LcmMulticastTest, AtOneKilohertzEachMessageIsUsedOrCountedAsLost) {
         ASSERT_EQ(receiving.open(kMulticast), Status::kOk) << get_advice(receiving.get_fault());
         ASSERT_EQ(sending.open(kMulticast), Status::kOk);
         LcmSender sink(sending, "STATE");
+        ASSERT_EQ(sink.open(), Status::kOk);
         LinkSender<Message> sender("sender", sink);
         LinkReceiver<Message, Queue> receiver("receiver", queue, {30'000U});  // a loaded host stalls
         OutPort<Cloud> source(kNoOwner, "source");

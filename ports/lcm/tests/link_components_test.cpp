@@ -32,6 +32,24 @@ class FakeSink final : public MessageSink {
     Status status{Status::kOk};
 };
 
+/// A queue whose writer is faster than its reader in the next `busy` calls.
+class BusyQueue final {
+  public:
+    static constexpr std::size_t kCapacity = Queue::kCapacity;
+
+    Status take(Span<const std::byte>& message) noexcept {
+        if (busy > 0) {
+            --busy;
+            return Status::kOutOfResources;
+        }
+        return queue.take(message);
+    }
+    ReceptionCounts get_counts() const noexcept { return queue.get_counts(); }
+
+    Queue queue{};
+    int busy{0};
+};
+
 class LinkComponentsTest : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -255,6 +273,65 @@ TEST_F(LinkComponentsTest, AMessageThatTheTransportDoesNotTakeIsCountedAndDetect
     EXPECT_TRUE(receive());
     EXPECT_EQ(sender_.get_failed_count(), 1U);
     EXPECT_EQ(get_news().lost, 1U);
+}
+
+/// The receiver of a busy queue, which found the order.
+class BusyQueueTest : public LinkComponentsTest {
+  protected:
+    void SetUp() override {
+        for (int mark = 0; mark < 3; ++mark) {
+            send(mark);
+            deliver();
+            execute();
+        }
+        ASSERT_EQ(busy_receiver_.get_news().used, 1U);
+    }
+    void deliver() { busy_queue_.queue.put({sink_.last.data(), sink_.last.size()}); }
+    void execute() {
+        ++now_;
+        ASSERT_EQ(busy_receiver_.on_execute({0, Instant{now_}}), Status::kOk);
+    }
+
+    BusyQueue busy_queue_;
+    LinkReceiver<Message, BusyQueue> busy_receiver_{"receiver", busy_queue_, kLimits};
+};
+
+TEST_F(BusyQueueTest, MessagesAreReadInTheSameCycleIfTheWriterWasFasterOnce) {
+    verifies("SWR-LCM-008", Technique::kFaultInjection, Polarity::kNominal);
+    for (int mark = 3; mark < 6; ++mark) {
+        send(mark);
+        deliver();
+    }
+    busy_queue_.busy = 1;
+
+    execute();
+    EXPECT_EQ(busy_receiver_.get_news().used, 4U);
+}
+
+TEST_F(BusyQueueTest, AWriterThatIsAlwaysFasterEndsNeitherTheCycleNorCountsAsSilence) {
+    verifies("SWR-LCM-008", Technique::kFaultInjection, Polarity::kViolation);
+    deliver();  // repeated
+    busy_queue_.busy = 300 * static_cast<int>(BusyQueue::kCapacity);
+    for (int cycle = 0; cycle < 300; ++cycle) {
+        execute();
+    }
+    ASSERT_EQ(busy_queue_.busy, 0);
+    ASSERT_EQ(busy_receiver_.get_news().unordered, 0U);
+
+    execute();
+    EXPECT_EQ(busy_receiver_.get_news().unordered, 1U);
+    EXPECT_FALSE(busy_receiver_.get_news().is_closed);
+}
+
+TEST_F(BusyQueueTest, MessagesOfAnEarlierRunAreDroppedIfTheWriterWasFasterOnce) {
+    verifies("SWR-LCM-008", Technique::kStateTransition, Polarity::kViolation);
+    send(3);
+    deliver();
+    busy_queue_.busy = 1;
+
+    EXPECT_EQ(busy_receiver_.on_startup({0, Instant{now_}}), Status::kOk);
+    execute();
+    EXPECT_EQ(busy_receiver_.get_news().used, 1U);
 }
 
 TEST_F(LinkComponentsTest, MessagesOfAnEarlierRunAreDropped) {

@@ -220,6 +220,19 @@ TEST_F(LogPlayerTest, MoreChannelsThanTheLimitAreRejected) {
         ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
     }
     EXPECT_EQ(player_.receive("STATE", queue_), Status::kOutOfResources);
+    EXPECT_EQ(player_.get_fault(), LinkFault::kSubscribe);
+}
+
+TEST_F(LogPlayerTest, AnInvalidChannelIsRejected) {
+    verifies("SWR-LCM-010", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const std::string longest(LogPlayer::kChannelNameMax, 'a');
+    const std::string longer = longest + 'a';
+    for (const char* name : {"", "STATE.*", "a b", longer.c_str()}) {
+        EXPECT_EQ(player_.receive(name, queue_), Status::kBadParameter) << name;
+        EXPECT_EQ(player_.get_fault(), LinkFault::kChannel) << name;
+    }
+    EXPECT_EQ(player_.receive(longest.c_str(), queue_), Status::kOk);
+    EXPECT_EQ(player_.get_fault(), LinkFault::kNone);
 }
 
 }  // namespace

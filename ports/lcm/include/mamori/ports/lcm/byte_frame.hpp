@@ -40,8 +40,8 @@ enum class FrameEvent : std::uint8_t {
 
 /// Finds the frames in a stream of any octets. After any damage, the next undamaged frame is found.
 ///
-/// Thread safety: none. Time: O(1) per octet; the octet that ends a frame O(size of the frame). Memory: the
-/// buffer.
+/// Thread safety: none. Time: O(1) per octet; the octet that ends a frame O(size of the frame).
+/// Memory: the buffer.
 class FrameDecoder final {
   public:
     /// @param[in] buffer for the longest message and kFrameChecksumSize octets; must outlive this object.
@@ -49,6 +49,8 @@ class FrameDecoder final {
 
     /// Takes the next octet of the stream.
     FrameEvent push(std::byte octet) noexcept;
+    /// Drops the begun frame and the last message, for a new stream.
+    void reset() noexcept;
     /// The message of the last kMessage; valid until the next push().
     Span<const std::byte> get_message() const noexcept { return {buffer_.data(), message_size_}; }
 

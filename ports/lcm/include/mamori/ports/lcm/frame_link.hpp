@@ -42,8 +42,8 @@ class FrameSender : public MessageSink {
     /// Sends each frame as one datagram. @param[in] address of the receiver, IPv4 in digits.
     /// @return kOk; kPreconditionNotMet (open already); kError (get_fault() tells why).
     Status open_udp(const char* address, std::uint16_t port) noexcept;
-    /// Writes frames to a serial device, 8 bits, no parity, 1 stop bit. @param[in] speed 9600 .. 921600
-    /// [bit/s].
+    /// Writes frames to a serial device: 8 bits, no parity, 1 stop bit, no flow control.
+    /// @param[in] speed 9600 .. 921600 [bit/s].
     /// @return as open_udp().
     Status open_serial(const char* path, std::uint32_t speed) noexcept;
     void close() noexcept;
@@ -75,9 +75,8 @@ class FrameSenderFor final : private detail::FrameStorage<calc_frame_size_max(Me
 /// Receives frames. Use FrameReceiverFor, which has the storage.
 ///
 /// Thread safety: open and close it from one thread. The receiving thread has the default priority and
-/// touches only
-///                the inbox.
-/// Memory:        the storage and the stack of the thread, allocated by the open call; no heap.
+///                touches only the inbox.
+/// Memory:        the storage and the stack of the thread, 256 KiB, allocated by the open call; no heap.
 class FrameReceiver {
   public:
     FrameReceiver(const FrameReceiver&) = delete;
@@ -87,7 +86,7 @@ class FrameReceiver {
     /// @param[in] port 0: a free one, see get_port().
     /// @return as FrameSender::open_udp().
     Status open_udp(const char* address, std::uint16_t port) noexcept;
-    /// Reads a serial device. @return as FrameSender::open_serial().
+    /// Reads a serial device, without the octets that arrived before. @return as FrameSender::open_serial().
     Status open_serial(const char* path, std::uint32_t speed) noexcept;
     /// Ends the thread. The queue keeps its messages.
     void close() noexcept;

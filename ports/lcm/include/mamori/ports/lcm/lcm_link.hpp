@@ -28,9 +28,9 @@ struct LcmHandle;
 /// One connection to an LCM network. Without liblcm at build time, open() reports LinkFault::kUnsupported.
 ///
 /// Thread safety: open, receive and close it from one thread. The receiving thread, and those that liblcm
-/// starts, have
-///                the default priority and touch only the inboxes.
-/// Memory:        none of its own after open(); liblcm allocates as it wants.
+///                starts, have the default priority and touch only the inboxes.
+/// Memory:        a stack of 256 KiB, allocated by open(); liblcm allocates at any time, and its own threads
+///                have stacks of the default size.
 class LcmLink final {
   public:
     static constexpr std::size_t kChannelsMax = 16U;
@@ -43,12 +43,13 @@ class LcmLink final {
 
     /// Adds a channel to receive. Before open().
     /// @param[in] channel not copied; must outlive the link. @param[in] inbox likewise.
-    /// @return kOk; kPreconditionNotMet (open); kBadParameter (name; get_fault()); kOutOfResources
-    /// (kChannelsMax).
+    /// @return kOk; kPreconditionNotMet (open); kBadParameter (name; get_fault());
+    ///         kOutOfResources (kChannelsMax).
     Status receive(const char* channel, MessageInbox& inbox) noexcept;
     /// Opens the network and starts the receiving thread. @param[in] url of LCM, as
     /// `udpm://239.255.76.67:7667?ttl=0`.
-    /// @return kOk; kPreconditionNotMet (open already); kError (get_fault() tells why; nothing is open).
+    /// @return kOk; kPreconditionNotMet (open already); kError (get_fault() tells why; nothing is open);
+    ///         kUnsupported (built without liblcm).
     Status open(const char* url) noexcept;
     /// Ends the thread and leaves the network; the channels stay.
     void close() noexcept;
@@ -92,11 +93,20 @@ class LcmSender final : public MessageSink {
     /// @param[in] link, channel must outlive this object; the link is open before the first message.
     constexpr LcmSender(LcmLink& link, const char* channel) noexcept : link_(link), channel_(channel) {}
 
-    Status send(Span<const std::byte> message) noexcept override { return link_.publish(channel_, message); }
+    /// Checks the name of the channel, before the first message. The link may be opened later.
+    /// @return kOk, also when open already; kBadParameter (name; get_fault()).
+    Status open() noexcept;
+
+    Status send(Span<const std::byte> message) noexcept override;
+
+    /// Why the last open() failed.
+    LinkFault get_fault() const noexcept { return fault_; }
 
   private:
     LcmLink& link_;
     const char* channel_;
+    bool is_open_{false};
+    LinkFault fault_{LinkFault::kNone};
 };
 
 }  // namespace mamori::ports::lcm

@@ -28,10 +28,10 @@ struct LinkNews {
     std::uint32_t used{0U};     ///< accepted by E2E and decoded
     std::uint32_t lost{0U};     ///< by the counter, missing before an accepted message
     std::uint32_t damaged{0U};  ///< refused by E2E or by the decoder, or a frame that is not well-formed
-    std::uint32_t unordered{
-        0U};  ///< intact, but repeated, old or beyond the limit: of a second sender or a replay
+    /// Intact, but repeated, old or beyond the limit: of a second sender or a replay.
+    std::uint32_t unordered{0U};
     std::uint32_t initial{0U};  ///< intact, with which the receiver found the order; not used
-    std::uint32_t foreign{0U};  ///< of another type or channel
+    std::uint32_t foreign{0U};  ///< of another type
     std::uint32_t truncated{0U};
     std::uint32_t oversized{0U};
     std::uint32_t overwritten{0U};  ///< overwritten in the queue; also counted as lost
@@ -59,8 +59,8 @@ class LinkSender final : public Component {
     using Ports = mamori::Ports<&LinkSender::in>;
 
     /// @return kOk, also when the transport lost the message, which get_failed_count() counts and the
-    /// receiver
-    ///         detects; kBadParameter (an enumeration of the value holds none of its enumerators).
+    ///         receiver detects; kBadParameter (an enumeration of the value holds none of its enumerators);
+    ///         kPreconditionNotMet (the protector rejects the channel of Message).
     Status on_execute(ContextHandle) noexcept override {
         if (!in.is_new()) {
             return Status::kOk;
@@ -89,8 +89,8 @@ class LinkSender final : public Component {
 /// Reads all waiting messages and gives the newest accepted value to `out`; `out` gets nothing when none was
 /// accepted. `news` tells about every cycle. @tparam Queue MessageQueue of the message.
 ///
-/// Thread safety: none; runs in its window. Time: O(size of kDepth messages), no system call. Memory: one
-/// value.
+/// Thread safety: none; runs in its window. Time: O(size of kDepth messages), no system call.
+/// Memory: one value.
 template <typename Message, typename Queue>
 class LinkReceiver final : public Component {
   public:
@@ -106,20 +106,26 @@ class LinkReceiver final : public Component {
     /// Drops the messages of an earlier run. @return kOk.
     Status on_startup(ContextHandle) noexcept override {
         Span<const std::byte> message;
-        for (std::size_t i = 0U; i < Queue::kCapacity && queue_.take(message) == Status::kOk; ++i) {
+        for (std::size_t i = 0U; i < Queue::kCapacity && queue_.take(message) != Status::kPreconditionNotMet;
+             ++i) {
         }
         return Status::kOk;
     }
     /// @return kOk, with any content of the messages.
     Status on_execute(ContextHandle) noexcept override {
         bool has_value = false;
-        bool has_message = false;
+        bool is_silent = true;
         Span<const std::byte> message;
-        for (std::size_t i = 0U; i < Queue::kCapacity && queue_.take(message) == Status::kOk; ++i) {
-            has_message = true;
-            has_value = accept(message) || has_value;
+        for (std::size_t i = 0U; i < Queue::kCapacity; ++i) {
+            const Status status = queue_.take(message);
+            if (status == Status::kPreconditionNotMet) {
+                break;
+            }
+            is_silent = false;
+            // With kOutOfResources, the writer was faster: messages wait.
+            has_value = (status == Status::kOk && accept(message)) || has_value;
         }
-        if (!has_message) {
+        if (is_silent) {
             static_cast<void>(checker_.check_silence());
         }
         if (has_value) {

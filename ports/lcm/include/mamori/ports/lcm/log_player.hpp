@@ -3,7 +3,7 @@
 /// Replays the log of an LCM network (lcm-logger) into the queues of windows, at the instants of the caller:
 /// in virtual time, a replay gives the same outputs each time. Needs no liblcm.
 ///
-/// @satisfies SWR-LCM-012      Design: docs/design/lcm.md#transports
+/// @satisfies SWR-LCM-010, SWR-LCM-012      Design: docs/design/lcm.md#transports
 /// Source:   LCM documentation, "LCM Log File format"
 #ifndef MAMORI_PORTS_LCM_LOG_PLAYER_HPP
 #define MAMORI_PORTS_LCM_LOG_PLAYER_HPP
@@ -15,6 +15,7 @@
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/status.hpp"
 #include "mamori/kernel/base/time.hpp"
+#include "mamori/ports/lcm/link_fault.hpp"
 #include "mamori/ports/lcm/message_queue.hpp"
 
 namespace mamori::ports::lcm {
@@ -34,27 +35,28 @@ class LogPlayer final {
     LogPlayer& operator=(const LogPlayer&) = delete;
     ~LogPlayer() { close(); }
 
-    /// Adds a channel; events of other channels are skipped. @param[in] channel, inbox must outlive the
-    /// player.
-    /// @return kOk; kOutOfResources (kChannelsMax).
+    /// Adds a channel; events of other channels are skipped.
+    /// @param[in] channel, inbox must outlive the player.
+    /// @return kOk; kBadParameter (name; get_fault()); kOutOfResources (kChannelsMax; get_fault()).
     Status receive(const char* channel, MessageInbox& inbox) noexcept;
-    /// Opens a log and reads its first event. @return kOk; kPreconditionNotMet (open already); kError (cannot
-    /// be
-    ///         read, or does not begin with an event of LCM).
+    /// Opens a log and reads its first event.
+    /// @return kOk; kPreconditionNotMet (open already); kError (cannot be read, or does not begin with an
+    ///         event of LCM).
     Status open(const char* path) noexcept;
     void close() noexcept;
 
     /// Delivers the events up to and including `now`. An event that is earlier than the one before it is
     /// delivered with that one.
-    /// @return kOk; kPreconditionNotMet (the log has ended, all events are delivered); kError (the log is
-    /// damaged at
-    ///         get_offset(); the events before it are delivered).
+    /// @return kOk; kPreconditionNotMet (the log has ended, all events are delivered);
+    ///         kError (the log is damaged at get_offset(); the events before it are delivered).
     Status deliver_until(Instant now) noexcept;
 
     /// Events that were delivered or skipped.
     std::uint64_t get_event_count() const noexcept { return event_count_; }
     /// Where the event begins that is read next or cannot be read [byte].
     std::uint64_t get_offset() const noexcept { return offset_; }
+    /// Why the last call of receive() failed.
+    LinkFault get_fault() const noexcept { return fault_; }
 
   private:
     struct Channel {
@@ -78,6 +80,7 @@ class LogPlayer final {
     std::uint64_t event_count_{0U};
     int file_{-1};
     State state_{State::kEnd};
+    LinkFault fault_{LinkFault::kNone};
 };
 
 }  // namespace mamori::ports::lcm

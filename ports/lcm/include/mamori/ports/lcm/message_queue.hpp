@@ -47,7 +47,7 @@ inline constexpr MessageLimits kLimitsOf{Message::kFingerprint, Message::kSizeMi
 /// What became of the messages that a transport received. Each counter stops at its largest value.
 struct ReceptionCounts {
     std::uint32_t accepted{0U};     ///< given to the queue
-    std::uint32_t foreign{0U};      ///< another fingerprint or channel: a message of another type
+    std::uint32_t foreign{0U};      ///< another fingerprint: a message of another type
     std::uint32_t truncated{0U};    ///< shorter than the shortest message of the type
     std::uint32_t oversized{0U};    ///< longer than the longest message of the type
     std::uint32_t damaged{0U};      ///< frames of a byte stream that are not well-formed; not of LCM
@@ -62,8 +62,6 @@ class MessageInbox {
   public:
     /// Takes one received message of any content. @param[in] message not kept.
     void put(Span<const std::byte> message) noexcept;
-    /// Counts a message of another channel.
-    void put_foreign() noexcept { count(foreign_); }
     /// Counts octets that are not a frame.
     void put_damaged() noexcept { count(damaged_); }
     /// Counts a message that was too long for the buffer of its transport.

@@ -60,8 +60,8 @@ constexpr Span<Byte> get_protected_part(Span<Byte> message) noexcept {
 /// Encodes and protects `value`. Octets after the message do not change. O(size of the message), no memory.
 /// @param[in,out] protector safety::E2eProtector of the profile and channel of Message; counts with kOk only.
 /// @param[out] buffer Message::kSizeMax octets are always sufficient.
-/// @return octets written; kOutOfResources and kBadParameter as encode_lcm(); kPreconditionNotMet
-/// (protector).
+/// @return octets written; kOutOfResources and kBadParameter as encode_lcm();
+///         kPreconditionNotMet (protector).
 template <typename Message, typename Protector>
 constexpr Result<std::size_t> encode_protected(const typename Message::Value& value, Protector& protector,
                                                Span<std::byte> buffer) noexcept {
