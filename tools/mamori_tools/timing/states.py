@@ -76,11 +76,12 @@ def list_state_findings(run: Measurement) -> list[str]:
     """The first change from an operating state to another one."""
     if run.switches is None or not run.states:
         return []
-    order = np.argsort(run.openings["release_ns"], kind="stable")
+    # A core asks for the state when its window ends; windows of other cores may have been released before and end later.
+    order = np.argsort(run.openings["closed_ns"], kind="stable")
+    order = order[run.switches.window_use["state"][order] != NO_STATE]
     states = run.switches.window_use["state"][order].astype(np.int64)
-    known = states != NO_STATE
-    is_operating = np.array([*(state.is_operating for state in run.states), False])[np.where(known, states, -1)]
-    left = np.flatnonzero(is_operating[:-1] & ~is_operating[1:] & known[1:])
+    is_operating = np.array([state.is_operating for state in run.states])[states]
+    left = np.flatnonzero(is_operating[:-1] & ~is_operating[1:])
     if not len(left):
         return []
     row = int(left[0]) + 1

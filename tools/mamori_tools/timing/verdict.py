@@ -25,6 +25,7 @@ STEAL_NS_MIN = 50_000
 """Difference between presence on the processor and CPU time from which the host must have used it."""
 USED_SHARE = 0.9
 """A window that used this share of its budget itself needs no other cause."""
+STOLEN = "the hypervisor or interrupts used the processor"
 
 
 @dataclass(frozen=True)
@@ -187,7 +188,7 @@ def judge_overrun(run: Measurement, opening: Array, steps: Array, uses: Array | 
     if stolen >= STEAL_NS_MIN:
         needed -= stolen
         # At most what the thread was present before the deadline: the rest came too late to cause the loss.
-        blame.add(OUTSIDE, "the hypervisor or interrupts used the processor", min(stolen, core.calc_presence(core.thread, woke, deadline_ns)))
+        blame.add(OUTSIDE, STOLEN, min(stolen, core.calc_presence(core.thread, woke, deadline_ns)))
     if needed > budget:
         return Cause(COMPONENT)
     core.blame(blame, int(opening["release_ns"]), woke, core.log.runner, frozenset())

@@ -56,10 +56,27 @@ def test_times_are_separate_for_each_state_that_occurred(tmp_path: Path) -> None
     ([STARTING, MOVING, MOVING, STOPPED], "the system left its operating state 'moving' in cycle 4: 'stopped'"),
     ([STARTING, MOVING, STARTING, MOVING], "the system left its operating state 'moving' in cycle 3: 'starting'"),
     ([NO_STATE, MOVING, NO_STATE, MOVING], ""),
+    ([MOVING, NO_STATE, STOPPED], "the system left its operating state 'moving' in cycle 3: 'stopped'"),
     ([STOPPED, STARTING, STOPPED, STARTING], ""),
 ])  # fmt: skip
 def test_leaving_an_operating_state_is_a_finding(tmp_path: Path, states: list[int], finding: str) -> None:
     assert list_state_findings(read(tmp_path, states)) == ([finding] if finding else [])
+
+
+@pytest.mark.verifies("SWR-TIM-046", technique="state_transition", polarity="violation")
+@pytest.mark.parametrize(("states", "findings"), [
+    ((MOVING, STARTING), []), ((STOPPED, MOVING), ["the system left its operating state 'moving' in cycle 1: 'stopped'"]),
+])  # fmt: skip
+def test_states_of_several_cores_are_compared_in_the_order_in_which_their_windows_ended(tmp_path: Path, states: tuple[int, int],
+                                                                                        findings: list[str]) -> None:  # fmt: skip
+    table = make_table(windows=(("long", 0, 100, 800, 1000, 700), ("short", 1, 200, 200, 1000, 100)), components=(), connections=())
+    openings = np.zeros(2, OPENING)
+    openings["release_ns"], openings["closed_ns"] = (1100 * US, 1200 * US), (1800 * US, 1300 * US)
+    openings["woke_ns"], openings["window"], openings["outcome"] = openings["release_ns"], (0, 1), COMPLETED
+    write_run(tmp_path, table, openings, np.zeros(0, STEP), make_run(table, 1, 1) | {"switches": make_switches(windows=2, errno=1), "states": STATES})
+    write_switches(tmp_path, 2, [], [], states)
+
+    assert list_state_findings(read_measurement(tmp_path)) == findings
 
 
 @pytest.mark.verifies("SWR-TIM-046", technique="interface", polarity="violation")

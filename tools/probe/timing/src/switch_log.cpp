@@ -20,8 +20,6 @@ using ports::posix_rt::Right;
 
 constexpr std::size_t kRingPagesMax = 256U;
 constexpr std::size_t kRingPagesMin = 8U;
-/// Slices between two windows; a busy host has a hundred per major frame.
-constexpr std::size_t kBatch = 16384U;
 
 /// Linux reads the rest of the structure as "not requested".
 perf_event_attr make_request() noexcept {
@@ -43,9 +41,9 @@ std::size_t get_page_size() noexcept {
 
 }  // namespace
 
-SwitchLog::SwitchLog(std::size_t capacity) : kept_(capacity) {
-    batch_.slices.resize(kBatch);
-    previous_.slices.resize(kBatch);
+SwitchLog::SwitchLog(std::size_t capacity, std::size_t batch) : kept_(capacity) {
+    batch_.slices.resize(batch);
+    previous_.slices.resize(batch);
 }
 
 SwitchLog::~SwitchLog() {
@@ -134,9 +132,7 @@ void SwitchLog::read_record(std::uint64_t position, std::uint32_t misc) noexcept
     }
     if (has_gap_) {
         slice.thread = slice.process = kUnknownThread;
-        has_gap_ = false;
     }
-    last_ = now;
     add_slice(slice);
 }
 
@@ -149,6 +145,7 @@ std::uint64_t SwitchLog::load_word(std::uint64_t position) const noexcept {
     return word;
 }
 
+/// After a lost slice, the next one begins at the end of the last stored one and has an unknown thread.
 void SwitchLog::add_slice(const Slice& slice) noexcept {
     if (batch_.count == batch_.slices.size()) {
         ++lost_count_;
@@ -157,6 +154,8 @@ void SwitchLog::add_slice(const Slice& slice) noexcept {
     }
     batch_.slices[batch_.count] = slice;
     ++batch_.count;
+    last_ = slice.end;
+    has_gap_ = false;
 }
 
 ProcessorUse SwitchLog::calc_use(Instant from, Instant to, std::uint32_t window_thread) const noexcept {
@@ -165,7 +164,8 @@ ProcessorUse SwitchLog::calc_use(Instant from, Instant to, std::uint32_t window_
     for (std::size_t i = 0U; i < batch_.count; ++i) {
         const Slice& slice = batch_.slices[i];
         const Duration time = std::min(slice.end, to) - std::max(slice.begin, from);
-        if (time.ns <= 0 || slice.process == 0U || slice.thread == runner_ || slice.thread == window_thread) {
+        const bool is_of_window = slice.thread == runner_ || slice.thread == window_thread;
+        if (time.ns <= 0 || slice.process == 0U || slice.thread == kUnknownThread || is_of_window) {
             continue;
         }
         Duration& sum = slice.process == process_ ? use.own : use.outside;

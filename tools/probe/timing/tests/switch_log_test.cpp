@@ -194,6 +194,36 @@ TEST_F(SwitchLogTest, SlicesBeyondTheCapacityAreCounted) {
     EXPECT_GT(small.get_lost_count(), 0U);
 }
 
+TEST_F(SwitchLogTest, LostSlicesBecomeOneOfAnUnknownThreadThatIsNotCounted) {
+    verifies("SWR-TIM-042", Technique::kBoundaryValues, Polarity::kViolation);
+    SwitchLog small{100U, 1U};
+    if (!small.open(processor_, clock_).is_granted) {
+        GTEST_SKIP() << "verdict=not-shown: this host does not permit to record switches";
+    }
+    ProcessorUse use;
+    run([&] {
+        for (int i = 0; i < 3; ++i) {
+            const Instant begin = clock_.get_now();
+            std::this_thread::sleep_for(milliseconds{2});
+            std::this_thread::sleep_for(milliseconds{2});
+            small.read();
+            use = small.calc_use(begin, clock_.get_now(), 0U);
+            small.settle(true);
+        }
+    });
+
+    const Span<const Slice> kept = small.get_kept();
+    ASSERT_EQ(kept.size(), 3U);
+    EXPECT_GT(small.get_lost_count(), 0U);
+    EXPECT_NE(kept[0].thread, kUnknownThread);
+    for (std::size_t i = 1U; i < kept.size(); ++i) {
+        EXPECT_EQ(kept[i].thread, kUnknownThread);
+        EXPECT_EQ(kept[i].begin, kept[i - 1U].end) << "the lost slices are part of it";
+    }
+    EXPECT_EQ(use.own + use.outside, Duration{0});
+    EXPECT_EQ(use.thread, 0U);
+}
+
 TEST_F(SwitchLogTest, RefusedLogTellsWhyAndStaysEmpty) {
     verifies("SWR-TIM-042", Technique::kErrorGuessing, Polarity::kViolation);
     const ports::posix_rt::Right right = sut_.open(1 << 20, clock_);

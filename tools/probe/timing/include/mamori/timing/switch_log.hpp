@@ -52,8 +52,12 @@ struct OwnThread {
 /// maps a buffer of 1 MiB, or as much as Linux permits.
 class SwitchLog final {
   public:
+    /// Slices between two windows; a busy host has a hundred per major frame.
+    static constexpr std::size_t kBatch = 16384U;
+
     /// @param[in] capacity of the kept slices; further ones are counted and lost.
-    explicit SwitchLog(std::size_t capacity);
+    /// @param[in] batch slices of one read(), > 0; further ones are counted and lost.
+    explicit SwitchLog(std::size_t capacity, std::size_t batch = kBatch);
     SwitchLog(const SwitchLog&) = delete;
     SwitchLog& operator=(const SwitchLog&) = delete;
     ~SwitchLog();
@@ -70,7 +74,8 @@ class SwitchLog final {
 
     /// Reads the switches since the last call.
     void read() noexcept;
-    /// Evaluates the slices of the last read(). @param[in] window_thread thread of the window; 0: unknown.
+    /// Evaluates the slices of the last read(); time with lost switches is not counted.
+    /// @param[in] window_thread thread of the window; 0: unknown.
     ProcessorUse calc_use(Instant from, Instant to, std::uint32_t window_thread) const noexcept;
 
     /// Call once after each read(). @param[in] is_kept keeps the slices of the last two calls of read().
@@ -99,9 +104,9 @@ class SwitchLog final {
     std::int64_t epoch_ns_{0};
     std::uint32_t process_{0U};
     std::uint32_t runner_{0U};
-    bool has_gap_{false};
-    Instant last_{};
-    Slice coming_{};  ///< thread that came to the processor last
+    bool has_gap_{false};  ///< switches were lost since the last slice
+    Instant last_{};       ///< end of the last slice
+    Slice coming_{};       ///< thread that came to the processor last
     Batch batch_{};
     Batch previous_{};
     std::vector<Slice> kept_;

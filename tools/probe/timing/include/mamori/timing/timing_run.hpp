@@ -49,8 +49,9 @@ struct TimingOptions {
     std::function<std::vector<std::string>()> tell_findings{};
     /// States that `get_state` can return. Empty: the system has none.
     std::vector<SystemState> states{};
-    /// @return index in `states`. Called by the thread of each core after each of its windows; must be quick
-    /// and must not block. Not called while work of the core is outstanding.
+    /// @return index in `states`. Called by the thread of each core after each of its windows, so several
+    /// cores call it concurrently; must be quick and must not block. Not called while work of the core is
+    /// outstanding.
     std::function<std::size_t()> get_state{};
     /// Alternates blocks of major frames: without requests from outside, with 1,000 requests per second, and
     /// with as many in bursts of a hundred. Rejected without `introspection`.
