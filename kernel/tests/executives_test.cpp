@@ -59,6 +59,12 @@ Noter g_far{"far"};
 constexpr auto kSecondCoreOnly =
     system(frame(1000_ns), window("far", 0_ns, 400_ns, core(1U), budget(300_ns), run(g_far)));
 
+Noter g_late{"late"};
+Noter g_early{"early"};
+constexpr auto kDescending =
+    system(frame(1000_ns), window("late", 400_ns, 400_ns, core(1U), budget(300_ns), run(g_late)),
+           window("early", 0_ns, 400_ns, budget(300_ns), run(g_early)));
+
 /// Constant-initialised, as on a controller.
 MAMORI_CONSTINIT Executives<kTwoCores> g_constant;
 
@@ -87,6 +93,9 @@ TEST_F(ExecutivesTest, TableDeterminesCoresAndModes) {
     EXPECT_EQ(detail::find_first_core(make_view(kSecondCoreOnly)), 1U);
     EXPECT_EQ(detail::find_first_core(SystemView{}), 0U);
     EXPECT_EQ(detail::count_cores(SystemView{}), 0U);
+    EXPECT_EQ(detail::count_cores(make_view(kTwoCores)), 2U);
+    EXPECT_EQ(detail::count_cores(make_view(kDescending)), 2U);
+    EXPECT_EQ(detail::find_first_core(make_view(kDescending)), 0U);
     EXPECT_CHECK_FAILS(static_cast<void>(g_constant.get(2U)), "run/executives.hpp", 1U);
 }
 

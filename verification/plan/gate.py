@@ -240,6 +240,7 @@ def list_test_steps(project: Project, campaign: Action, tier: Tier, mutation_min
         faults_step(SANITIZED, Tier.GATE),
         *race_steps(),
         proof_step("determinism proof", "determinism", needs=(BUILD, f"build {SANITIZED}")),
+        proof_step("labelled timing events", "timing_verdict"),
         *strength_steps(),
         campaign_step(campaign),
         timing_step(),

