@@ -338,15 +338,12 @@ void crash_in_a_window(void (*crash)() noexcept) {
 TEST_F(CrashHandlersTest, ReplacedPlanIsFollowed) {
     verifies("SWR-PRT-026", Technique::kInterface, Polarity::kNominal);
     const int status = run([this](Child& child) {
-        CrashHandlers other;
-        CrashPlan plan{&Shared::close_outputs, shared_, child.file.get_region(), 77U, child.clock};
-        bool is_ok = other.replace(plan) == Status::kPreconditionNotMet;
-        plan.close_outputs = nullptr;
-        is_ok = is_ok && child.handlers.replace(plan) == Status::kBadParameter;
+        CrashPlan plan{nullptr, shared_, child.file.get_region(), 77U, child.clock};
+        bool is_ok = child.handlers.replace(plan) == Status::kBadParameter;
         plan.close_outputs = &Shared::close_outputs;
-        for (int i = 0; i < 3; ++i) {
-            is_ok = is_ok && child.handlers.replace(plan) == Status::kOk;
-            ++plan.session;
+        is_ok = is_ok && CrashHandlers{}.replace(plan) == Status::kPreconditionNotMet;
+        for (; is_ok && plan.session < 80U; ++plan.session) {
+            is_ok = child.handlers.replace(plan) == Status::kOk;
         }
         static_cast<void>(is_ok && ::raise(SIGSEGV) == 0);
     });

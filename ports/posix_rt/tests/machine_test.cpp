@@ -12,8 +12,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
-#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -300,70 +298,6 @@ TEST(MachineTest, SecondMachineOfTheProcessIsRefusedWhileTheFirstRuns) {
     EXPECT_EQ(inner.run(1U), Status::kOk);
 }
 
-TEST(MachineTest, OptionOutsideItsRangeIsRefused) {
-    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kViolation);
-    const auto run = [](const MachineOptions& options, std::uint64_t frames = 1U) {
-        const auto sut = std::make_unique<Machine<kRefused>>(options);
-        const Status status = sut->run(frames);
-        const bool is_named = sut->get_report().failed_step == MachineStep::kOptions;
-        EXPECT_EQ(is_named, status == Status::kBadParameter);
-        return status;
-    };
-    MachineOptions options = make_options();
-    EXPECT_EQ(run(options, 0U), Status::kBadParameter);
-    options.priority = MachineOptions::kPriorityMin - 1;
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options.priority = MachineOptions::kPriorityMax + 1;
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options.priority = std::numeric_limits<int>::min();
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options = make_options();
-    options.window_stack = kThreadStackMin - 1U;
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options = make_options();
-    options.runner_stack = kThreadStackMin - 1U;
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options = make_options();
-    options.lead = Duration{std::numeric_limits<std::int64_t>::min()};
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options.lead = Duration{0};
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options = make_options();
-    options.watch.lateness = Duration{-1};
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options = make_options();
-    options.watch.period = Duration{0};
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options = make_options();
-    options.watch.rate.span = Duration{0};
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options = make_options();
-    options.watch.rate.limit_ppm = 0;
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options = make_options();
-    options.watchdog_timeout = 29_ms;  // lead, two frames and two polls
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options.watchdog_timeout = Duration{std::numeric_limits<std::int64_t>::min()};
-    EXPECT_EQ(run(options), Status::kBadParameter);
-    options = make_options();
-    options.recorder = "unused.rec";
-    options.recorder_capacity = 0U;
-    EXPECT_EQ(run(options), Status::kBadParameter);
-}
-
-TEST(MachineTest, RecorderFileThatCannotBeOpenedEndsTheRunBeforeItsStart) {
-    verifies("SWR-PRT-070", Technique::kFaultInjection, Polarity::kViolation);
-    MachineOptions options = make_options();
-    options.recorder = "/nowhere/run.rec";
-    static Machine<kRefused> sut{options};
-    g_closed = 0;
-
-    EXPECT_EQ(sut.run(1U), Status::kError);
-    EXPECT_EQ(sut.get_report().failed_step, MachineStep::kRecorder);
-    EXPECT_EQ(sut.get_report().file_error, MappedFileError::kCannotOpen);
-    EXPECT_EQ(g_closed, 0);
-}
-
 TEST(MachineTest, FailureOfAComponentNamesTheStep) {
     verifies("SWR-PRT-070", Technique::kFaultInjection, Polarity::kViolation);
     static Machine<kFailsAtStart> starts{make_options()};
@@ -495,18 +429,6 @@ TEST(MachineTest, RecorderHasStartStopAndSignal) {
     }
     EXPECT_EQ(codes, (std::vector<int>{1, 2, 3, 5}));
     static_cast<void>(std::remove(path.c_str()));
-}
-
-TEST(MachineTest, EachStepHasASentence) {
-    verifies("SWR-PRT-070", Technique::kInterface, Polarity::kNominal);
-    std::vector<std::string> sentences;
-    for (int step = 0; step <= static_cast<int>(MachineStep::kStop); ++step) {
-        sentences.emplace_back(describe(static_cast<MachineStep>(step)));
-        for (std::size_t i = 0U; i + 1U < sentences.size(); ++i) {
-            EXPECT_NE(sentences[i], sentences.back());
-        }
-    }
-    EXPECT_STREQ(describe(static_cast<MachineStep>(200)), "unknown step");
 }
 
 }  // namespace

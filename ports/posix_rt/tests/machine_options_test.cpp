@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a machine rejects options that cannot work before it starts anything, and names each step of a run.
+// Method: one option out of its range at a time.
+#include "mamori/ports/posix_rt/machine_options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mamori/kernel/system/system.hpp"
+#include "mamori/ports/posix_rt/machine.hpp"
+#include "mamori/trace/verifies.hpp"
+
+namespace mamori::ports::posix_rt {
+namespace {
+
+using namespace verification;
+using literals::operator""_ms;
+using literals::operator""_s;
+
+class Idle final : public Component {
+  public:
+    constexpr Idle() noexcept : Component("idle") {}
+};
+
+Idle g_idle;
+constexpr auto kRefused = system(frame(10_ms), window("idle", 2_ms, 4_ms, budget(4_ms), run(g_idle)));
+
+int g_closed{0};
+void count_closing(void*) noexcept {
+    ++g_closed;
+}
+
+MachineOptions make_options() {
+    MachineOptions options;
+    options.outputs = {&count_closing, nullptr};
+    options.lead = 5_ms;
+    options.watch = {60_s, 2_ms, {10_s, 200'000}};
+    options.watchdog_timeout = 100_s;
+    return options;
+}
+
+TEST(MachineOptionsTest, OptionOutsideItsRangeIsRefused) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto run = [](const MachineOptions& options, std::uint64_t frames = 1U) {
+        const auto sut = std::make_unique<Machine<kRefused>>(options);
+        const Status status = sut->run(frames);
+        const bool is_named = sut->get_report().failed_step == MachineStep::kOptions;
+        EXPECT_EQ(is_named, status == Status::kBadParameter);
+        return status;
+    };
+    MachineOptions options = make_options();
+    EXPECT_EQ(run(options, 0U), Status::kBadParameter);
+    options.priority = MachineOptions::kPriorityMin - 1;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options.priority = MachineOptions::kPriorityMax + 1;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options.priority = std::numeric_limits<int>::min();
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.window_stack = kThreadStackMin - 1U;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.runner_stack = kThreadStackMin - 1U;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.lead = Duration{std::numeric_limits<std::int64_t>::min()};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options.lead = Duration{0};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.watch.lateness = Duration{-1};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.watch.period = Duration{0};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.watch.rate.span = Duration{0};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.watch.rate.limit_ppm = 0;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.watchdog_timeout = 29_ms;  // lead, two frames and two polls
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options.watchdog_timeout = Duration{std::numeric_limits<std::int64_t>::min()};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options = make_options();
+    options.recorder = "unused.rec";
+    options.recorder_capacity = 0U;
+    EXPECT_EQ(run(options), Status::kBadParameter);
+}
+
+TEST(MachineOptionsTest, RecorderFileThatCannotBeOpenedEndsTheRunBeforeItsStart) {
+    verifies("SWR-PRT-070", Technique::kFaultInjection, Polarity::kViolation);
+    MachineOptions options = make_options();
+    options.recorder = "/nowhere/run.rec";
+    static Machine<kRefused> sut{options};
+    g_closed = 0;
+
+    EXPECT_EQ(sut.run(1U), Status::kError);
+    EXPECT_EQ(sut.get_report().failed_step, MachineStep::kRecorder);
+    EXPECT_EQ(sut.get_report().file_error, MappedFileError::kCannotOpen);
+    EXPECT_EQ(g_closed, 0);
+}
+
+TEST(MachineOptionsTest, EachStepHasASentence) {
+    verifies("SWR-PRT-070", Technique::kInterface, Polarity::kNominal);
+    std::vector<std::string> sentences;
+    for (int step = 0; step <= static_cast<int>(MachineStep::kStop); ++step) {
+        sentences.emplace_back(describe(static_cast<MachineStep>(step)));
+        for (std::size_t i = 0U; i + 1U < sentences.size(); ++i) {
+            EXPECT_NE(sentences[i], sentences.back());
+        }
+    }
+    EXPECT_STREQ(describe(static_cast<MachineStep>(200)), "unknown step");
+}
+
+}  // namespace
+}  // namespace mamori::ports::posix_rt
