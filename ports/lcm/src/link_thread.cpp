@@ -19,7 +19,7 @@ namespace mamori::ports::lcm::detail {
 namespace {
 
 /// Not the 8 MiB of the usual limit, which mlockall() of a real-time process would lock.
-constexpr std::size_t kStackSize = 256U * 1024U;
+constexpr std::size_t kStackSize = std::size_t{256U} * 1024U;
 
 }  // namespace
 

@@ -19,9 +19,15 @@ namespace {
 
 /// The plan in force, and storage for the next one.
 std::array<std::optional<CrashPlan>, 2U> plan_storage;
+std::size_t next_plan{0U};  ///< index into it
 std::atomic<const CrashPlan*> plan_in_force{nullptr};
 static_assert(std::atomic<const CrashPlan*>::is_always_lock_free);
 std::atomic<bool> is_plan_taken{false};
+
+void put_in_force(const CrashPlan& plan) noexcept {
+    plan_in_force.store(&plan_storage[next_plan].emplace(plan), std::memory_order_release);
+    next_plan = 1U - next_plan;
+}
 
 /// Not the function of the C library, which is a place to end a cancelled thread at.
 void write_back(Span<std::byte> file) noexcept {
@@ -82,7 +88,7 @@ Status CrashHandlers::install(const CrashPlan& wanted) noexcept {
     if (is_plan_taken.exchange(true)) {
         return Status::kPreconditionNotMet;
     }
-    plan_in_force.store(&plan_storage[0U].emplace(wanted), std::memory_order_release);
+    put_in_force(wanted);
     detail::install_failure_gate();
     struct sigaction action{};
     action.sa_sigaction = &on_crash;
@@ -106,8 +112,7 @@ Status CrashHandlers::replace(const CrashPlan& wanted) noexcept {
     if (!is_installed_) {
         return Status::kPreconditionNotMet;
     }
-    const bool is_first = plan_in_force.load(std::memory_order_relaxed) == &*plan_storage[0U];
-    plan_in_force.store(&plan_storage[is_first ? 1U : 0U].emplace(wanted), std::memory_order_release);
+    put_in_force(wanted);
     return Status::kOk;
 }
 
