@@ -184,7 +184,8 @@ TEST_F(FrameLinkTest, TheReceivingThreadHasASmallStackBecauseARealTimeProcessLoc
     ASSERT_EQ(send(make_message(1)), Status::kOk);
     ASSERT_TRUE(wait_until([&] { return inbox.stack_size != 0U; }));
     EXPECT_GE(inbox.stack_size, 256U * 1024U);
-    EXPECT_LE(inbox.stack_size, 512U * 1024U);  // a sanitizer adds its own part
+    // The default of Linux is 8 MiB; the thread sanitizer adds its own data.
+    EXPECT_LE(inbox.stack_size, 2U * 1024U * 1024U);
 }
 
 TEST_F(FrameLinkTest, AMessageLongerThanTheSenderWasMadeForIsRejected) {
