@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: messages and fingerprints are those of the official library, in both directions. Method: the build
+// Goal: messages and fingerprints equal the official library, in both directions. Method: the build
 // makes the
 // `.lcm` text of three types from their field lists and lcm-gen makes code of it; random messages with a
 // fixed seed are encoded by both sides and decoded by the other.

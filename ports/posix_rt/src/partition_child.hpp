@@ -34,7 +34,7 @@ struct ChildPlan {
 };
 
 /// The first message has kNone and the descriptor of the process, which is never that of another process. A
-/// second one tells why there is no program; the start of the program closes the socket.
+/// second one gives the cause of a failed start; the start of the program closes the socket.
 struct ChildReport {
     PartitionError error{PartitionError::kNone};
     int system_error{0};

@@ -109,7 +109,7 @@ bool receive(int socket, ChildReport& report, int& watch) noexcept {
     return length == static_cast<ssize_t>(sizeof(report));
 }
 
-/// @param[in] options as for waitid(), without WEXITED. @return false: it is no child, or not any longer; or
+/// @param[in] options as for waitid(), without WEXITED. @return false: it is not a child of this process; or
 ///            WNOHANG is among them, and it lives.
 bool wait_for(idtype_t kind, id_t child, int options, siginfo_t& end) noexcept {
     int result = -1;

@@ -14,6 +14,7 @@
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/patient_options.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -29,20 +30,6 @@ class Idle final : public Component {
 
 Idle g_idle;
 constexpr auto kRefused = system(frame(10_ms), window("idle", 2_ms, 4_ms, budget(4_ms), run(g_idle)));
-
-int g_closed{0};
-void count_closing(void*) noexcept {
-    ++g_closed;
-}
-
-MachineOptions make_options() {
-    MachineOptions options;
-    options.outputs = {&count_closing, nullptr};
-    options.lead = 5_ms;
-    options.watch = {60_s, 2_ms, {10_s, 200'000}};
-    options.watchdog_timeout = 100_s;
-    return options;
-}
 
 TEST(MachineOptionsTest, OptionOutsideItsRangeIsRefused) {
     verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kViolation);

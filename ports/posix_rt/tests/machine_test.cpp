@@ -20,6 +20,7 @@
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/crash_note.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/patient_options.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -96,22 +97,8 @@ constexpr auto kTwoCores =
            window("far", 20_ms, 15_ms, core(1U), budget(15_ms), run(g_far)),
            connect(g_near.out, g_far.in, through(g_crossing), any_age()));
 
-std::atomic<int> g_closed{0};
-void count_closing(void*) noexcept {
-    ++g_closed;
-}
 void tell_closing(void*) noexcept {
     static_cast<void>(::write(STDERR_FILENO, "closed\n", 7));
-}
-
-/// Long limits: only what a test causes on purpose is found.
-MachineOptions make_options() {
-    MachineOptions options;
-    options.outputs = {&count_closing, nullptr};
-    options.lead = 5_ms;
-    options.watch = {60_s, 2_ms, {10_s, 200'000}};
-    options.watchdog_timeout = 100_s;
-    return options;
 }
 
 struct SpyDevices final : Devices {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a partition writes to streams of its own, and its lines can be told from those of others. Method: the
+// Goal: a partition writes to streams of its own, and each of its lines begins with its name. Method: the
 // shell as a partition, files and pipes as streams, text on both sides of each limit, a flood.
 #include "mamori/ports/posix_rt/partition_output.hpp"
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// LCM encoding of payloads, from the field list: fingerprint, then the fields, most significant byte first,
-/// without padding. The bytes are those of the code that lcm-gen makes of the `.lcm` text of the type.
+/// without padding. The bytes equal the output of the code that lcm-gen generates from the `.lcm` text of the
+/// type.
 ///
 /// @satisfies SWR-LCM-003, SWR-LCM-004      Design: docs/design/lcm.md#types
 /// Source:   LCM Type Specification Language, "Encoding"

@@ -54,7 +54,7 @@ struct ReceptionCounts {
     std::uint32_t overwritten{0U};  ///< accepted, but overwritten before the window read them
 };
 
-/// Receiving end of a transport: sorts messages, and keeps those of its type.
+/// Receiving end of a transport: sorts messages, and keeps each message of its type.
 ///
 /// Thread safety: one thread calls put() and put_damaged(); get_counts() from anywhere.
 /// Time:          wait-free, O(size_max). Memory: counters; no heap.

@@ -53,7 +53,7 @@ class CrashHandlers final {
     /// @param[in] plan close_outputs not nullptr; file empty or a page's begin with room for a note.
     /// @return kOk; kBadParameter (the plan); kPreconditionNotMet (this process has handlers already).
     Status install(const CrashPlan& plan) noexcept;
-    /// A crash from here on follows another plan; there is no instant without one. A handler that has begun
+    /// A later crash follows another plan. A plan is in force at each instant. A handler that has begun
     /// follows the previous plan. Not to be called again while it may.
     /// @return kOk; kBadParameter (the plan); kPreconditionNotMet (not installed).
     Status replace(const CrashPlan& plan) noexcept;

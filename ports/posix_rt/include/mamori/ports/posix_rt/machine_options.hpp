@@ -26,7 +26,7 @@ struct MachineOptions {
     /// Disables the outputs permanently: at a signal, a crash, an expired watchdog, a finding of the schedule
     /// watch, and at the end of each run. Called on any thread or in a signal handler; called again by
     /// another thread while a call has not returned: system calls and stores only, nothing that waits.
-    /// Without a function, there are no outputs to close.
+    /// Without a function, the system has no outputs.
     OutputGate outputs{};
     /// SCHED_FIFO priority of the threads that run the windows, kPriorityMin .. kPriorityMax. The windows run
     /// kPriorityStep below, the schedule watch kPriorityStep above, and the watchdog above that.

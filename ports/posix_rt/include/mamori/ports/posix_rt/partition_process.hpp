@@ -21,7 +21,7 @@
 namespace mamori::ports::posix_rt {
 
 /// Number of the first descriptor that is handed over, in the process that was started; 0 is /dev/null there,
-/// 1 and 2 are the streams of the order, and there is no other one.
+/// 1 and 2 are the streams of the order. No other descriptor is open.
 inline constexpr int kFirstPartitionDescriptor{3};
 /// Output to /dev/null.
 inline constexpr int kNoStream{-1};
@@ -53,8 +53,9 @@ struct PartitionOrder {
     Span<const int> descriptors{};        ///< become kFirstPartitionDescriptor and the next ones
     const FrameClock* clock{nullptr};     ///< time line for find_partition_clock(), or nullptr
     PartitionLimits limits{};
-    /// Descriptors that become standard output and standard error: a file, or those of a PartitionOutput.
-    /// With 1 or 2, the process writes to the stream of the safety process, which it can fill or change.
+    /// Descriptors that become standard output and standard error: a file, or the descriptors of a
+    /// PartitionOutput. With 1 or 2, the process writes to the stream of the safety process, which it can
+    /// fill or change.
     int output{kNoStream};
     int errors{kNoStream};
 };

@@ -41,7 +41,7 @@ class StopSignals final {
     ///            thread after remove().
     /// @return kOk; kPreconditionNotMet (an object is installed in this process).
     Status install(StopListener& listener) noexcept;
-    /// Restores the previous handlers. Without an installation, there is no effect.
+    /// Restores the previous handlers. Without an installation, the call has no effect.
     void remove() noexcept;
     /// To be called after remove(). Raises the signal again if the application had its own handler for it.
     void forward(int signal) const noexcept;
