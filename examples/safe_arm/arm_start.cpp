@@ -46,15 +46,27 @@ std::string check_fault_instant(const mamori::sim::FaultPlan& fault, const Motio
            " is not before the end of the motion at " + show_seconds(end_s) + "; choose an earlier instant";
 }
 
-std::string start_system(const mamori::sim::ArmModel& model, const MotionTrack& track,
-                         mamori::sim::ComputedTorqueController& law) {
+std::string describe_failed_start() {
+    return "the system refuses to start: component " + std::to_string(executive.get_failed_component());
+}
+
+std::string prepare_system(const mamori::sim::ArmModel& model, const MotionTrack& track,
+                           mamori::sim::ComputedTorqueController& law) {
     controller.configure(track, law, Instant{} + kMotionStart);
-    if (reader.configure(get_encoder_scale(model)) != Status::kOk || watch_components() != Status::kOk ||
-        executive.initialize() != Status::kOk || executive.start() != Status::kOk) {
-        return "the system refuses to start: component " + std::to_string(executive.get_failed_component());
+    if (reader.configure(get_encoder_scale(model)) != Status::kOk || watch_components() != Status::kOk) {
+        return "the system was prepared before";
     }
     executive.set_observer(&supervision);
     return {};
+}
+
+std::string start_system(const mamori::sim::ArmModel& model, const MotionTrack& track,
+                         mamori::sim::ComputedTorqueController& law) {
+    std::string obstacle = prepare_system(model, track, law);
+    if (obstacle.empty() && (executive.initialize() != Status::kOk || executive.start() != Status::kOk)) {
+        obstacle = describe_failed_start();
+    }
+    return obstacle;
 }
 
 }  // namespace safe_arm

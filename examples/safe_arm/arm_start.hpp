@@ -28,8 +28,15 @@ std::string load_inputs(const std::string& model_path, const std::string& motion
 /// motion of `track`; or nothing.
 std::string check_fault_instant(const mamori::sim::FaultPlan& fault, const MotionTrack& track);
 
-/// Configures the components, initialises and starts the executive, and puts it under supervision.
+/// Configures the components and puts the executive under supervision.
 /// @param[in] track, law must outlive the run. @return why the system does not start, or nothing.
+std::string prepare_system(const mamori::sim::ArmModel& model, const MotionTrack& track,
+                           mamori::sim::ComputedTorqueController& law);
+
+/// @return which component prevented the start.
+std::string describe_failed_start();
+
+/// The same as prepare_system(); then initialises and starts the executive.
 std::string start_system(const mamori::sim::ArmModel& model, const MotionTrack& track,
                          mamori::sim::ComputedTorqueController& law);
 

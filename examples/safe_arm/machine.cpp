@@ -64,7 +64,10 @@ void Machine::apply_software_faults(Instant now) noexcept {
 void Machine::apply(std::uint64_t, Instant now, Duration length) noexcept {
     watchdog.check(now + length);
     plant_.set_watchdog_expired(watchdog.has_expired());
-    is_plant_sound_ = plant_.step(outputs, length) == mamori::Status::kOk && is_plant_sound_;
+    if (plant_.step(outputs, length) != mamori::Status::kOk) {
+        is_plant_sound_ = false;
+        simulation.request_stop();
+    }
     FrameFacts facts{};
     facts.start = now;
     facts.end = now + length;

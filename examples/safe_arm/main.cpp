@@ -62,29 +62,26 @@ int run_scenario(const safe_arm::RunOptions& options) {
     mamori::sim::ComputedTorqueController law{*loaded.model};
     safe_arm::RunRecord record{options, *loaded.model, fault, Instant{} + safe_arm::kMotionStart, motion_end};
     plant.set_observer(&record.get_verdict());
-    const std::string obstacle = safe_arm::start_system(*loaded.model, track, law);
+    const std::string obstacle = safe_arm::prepare_system(*loaded.model, track, law);
     if (!obstacle.empty()) {
         return fail(kExitFailed, obstacle);
     }
 
     safe_arm::Machine machine{plant, safe_arm::virtual_host, fault, record};
-    mamori::ports::virtual_time::SimulatedCore core{safe_arm::executive, safe_arm::virtual_host};
-    mamori::ports::virtual_time::FrameRunner runner{{&core, 1U}, machine};
-
     const auto wall_start = std::chrono::steady_clock::now();
     const auto settled =
         static_cast<std::uint64_t>((motion_end + kSettling - Instant{}).ns / safe_arm::kFrame.ns);
-    const std::uint64_t frames = options.frames == 0U ? settled : options.frames;
-    while (runner.get_frame_count() < frames && machine.is_plant_sound()) {
-        runner.run_frame();
-    }
+    const mamori::Status status = safe_arm::simulate(options.frames == 0U ? settled : options.frames, machine);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
+    const std::uint64_t frames = safe_arm::simulation.get_frame_count();
     if (!machine.is_plant_sound()) {
-        return fail(kExitFailed,
-                    "the simulated plant diverged in frame " + std::to_string(runner.get_frame_count()));
+        return fail(kExitFailed, "the simulated plant diverged in frame " + std::to_string(frames));
     }
-    const std::string reason = record.write(
-        safe_arm::event_log, {runner.get_frame_count(), safe_arm::executive.get_trace_hash(), wall.count()});
+    if (status != mamori::Status::kOk && frames == 0U) {
+        return fail(kExitFailed, safe_arm::describe_failed_start());
+    }
+    const std::string reason =
+        record.write(safe_arm::event_log, {frames, safe_arm::executive.get_trace_hash(), wall.count()});
     return reason.empty() ? kExitOk : fail(kExitFailed, reason);
 }
 

@@ -55,12 +55,12 @@ mamori::safety::ExecutionSupervisor supervision{supervision_storage, kLatenessMa
 constexpr std::size_t kFirstWindow = mamori::index_of(kSafeArm, "protect");
 constexpr std::size_t kLastWindow = mamori::index_of(kSafeArm, "act");
 
-static mamori::ExecutiveFor executive_of_table{kSafeArm};
-mamori::Executive& executive = executive_of_table;
+static mamori::ports::virtual_time::Machine<kSafeArm> machine_of_table;
+mamori::Executive& executive = machine_of_table.get_executives().get(0U);
+mamori::ports::virtual_time::VirtualHost& virtual_host = machine_of_table.get_host_of<0U>();
+mamori::ports::virtual_time::MachineBase& simulation = machine_of_table;
 static mamori::IntrospectionFor introspection_of_table{kSafeArm};
 mamori::Introspection& introspection = introspection_of_table;
-static mamori::ports::virtual_time::VirtualHostFor host_of_table{kSafeArm};
-mamori::ports::virtual_time::VirtualHost& virtual_host = host_of_table;
 
 static constexpr mamori::safety::ComponentLimits kSafetyLimits{
     kAliveLimits, {0_us, kSafetyComponentMax}, mamori::safety::SupervisionScope::kGlobal};
@@ -73,6 +73,10 @@ static_assert(mamori::safety::is_watch_list_of<kSafeArm, kLimits>());
 
 mamori::Status watch_components() noexcept {
     return supervision.watch(kLimits);
+}
+
+mamori::Status simulate(std::uint64_t frames, mamori::Devices& devices) noexcept {
+    return machine_of_table.run(frames, devices);
 }
 
 }  // namespace safe_arm

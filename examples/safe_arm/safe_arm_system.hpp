@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The components of the example and the executive of the static table that wires them.
+/// The components of the example and the machine of the static table that wires them.
 ///
 /// @satisfies SWR-SAF-017      Design: docs/design/safe_arm.md#components
 #ifndef EXAMPLES_SAFE_ARM_SAFE_ARM_SYSTEM_HPP
 #define EXAMPLES_SAFE_ARM_SAFE_ARM_SYSTEM_HPP
 
 #include <array>
+#include <cstdint>
 
 #include "arm_limits.hpp"
 #include "arm_reader.hpp"
@@ -16,6 +17,7 @@
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/run/introspection.hpp"
 #include "mamori/kernel/system/system.hpp"
+#include "mamori/ports/virtual_time/machine.hpp"
 #include "mamori/ports/virtual_time/simulated_channel.hpp"
 #include "mamori/ports/virtual_time/virtual_host.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
@@ -50,6 +52,8 @@ extern mamori::Executive& executive;
 extern mamori::Introspection& introspection;
 /// Simulates it in virtual time.
 extern mamori::ports::virtual_time::VirtualHost& virtual_host;
+/// Number of simulated major frames; ends simulate() early by request_stop().
+extern mamori::ports::virtual_time::MachineBase& simulation;
 
 /// Modelled execution times.
 inline constexpr mamori::Duration kSafetyComponentTime = 30_us;
@@ -60,6 +64,10 @@ inline constexpr mamori::Duration kControllerTime = 120_us;
 /// the watchdog alone.
 /// @return kOk; kPreconditionNotMet (done before).
 mamori::Status watch_components() noexcept;
+
+/// Starts the system, runs `frames` major frames in virtual time and stops the system.
+/// @return as mamori::ports::virtual_time::Machine::run().
+mamori::Status simulate(std::uint64_t frames, mamori::Devices& devices) noexcept;
 
 }  // namespace safe_arm
 
