@@ -71,7 +71,8 @@ int run_scenario(const safe_arm::RunOptions& options) {
     const auto wall_start = std::chrono::steady_clock::now();
     const auto settled =
         static_cast<std::uint64_t>((motion_end + kSettling - Instant{}).ns / safe_arm::kFrame.ns);
-    const mamori::Status status = safe_arm::simulate(options.frames == 0U ? settled : options.frames, machine);
+    const mamori::Status status =
+        safe_arm::simulate(options.frames == 0U ? settled : options.frames, machine);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
     const std::uint64_t frames = safe_arm::simulation.get_frame_count();
     if (!machine.is_plant_sound()) {
