@@ -83,8 +83,8 @@ def test_partial_runs_refused_rights_findings_and_other_commits_are_marked(repor
     section, outcome = report(record)
 
     assert outcome.status == 0
-    for part in ('<span class="badge failed">1 finding</span>', '<span class="badge incomplete">PARTIAL</span>', ">rights refused<",
-                 '<p class="mark">PARTIAL: stopped after 7 of 2000 cycles</p>', "7 of 2000 cycles", "priority refused: Operation not permitted",
+    for part in ('<span class="badge failed">1 finding</span>', '<span class="badge incomplete">PARTIAL</span>', ">rights denied<",
+                 '<p class="mark">PARTIAL: stopped after 7 of 2000 cycles</p>', "7 of 2000 cycles", "priority denied: Operation not permitted",
                  "of another commit"):  # fmt: skip
         assert part in section, part
     assert section.index("the load ended early") < section.index("Windows: plan")
