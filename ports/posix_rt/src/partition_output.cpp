@@ -14,6 +14,12 @@ bool is_control(char character) noexcept {
     return (code < 0x20U && character != '\t') || code == 0x7FU;
 }
 
+/// The second set of control characters (ISO 6429, C1) has two octets in UTF-8: C2 80 .. C2 9F.
+bool is_second_control(char before, char character) noexcept {
+    return static_cast<unsigned char>(before) == 0xC2U && static_cast<unsigned char>(character) >= 0x80U &&
+           static_cast<unsigned char>(character) <= 0x9FU;
+}
+
 void close_end(int& end) noexcept {
     if (end >= 0) {
         static_cast<void>(::close(end));
@@ -112,6 +118,10 @@ void PartitionOutput::take(Stream& stream, char character, int target) noexcept 
         write_line(stream, target);
     }
     stream.line[stream.size] = is_control(character) ? '?' : character;
+    if (is_second_control(stream.line[stream.size - 1U], character)) {
+        stream.line[stream.size - 1U] = '?';
+        stream.line[stream.size] = '?';
+    }
     ++stream.size;
 }
 

@@ -173,6 +173,16 @@ TEST_F(PartitionOutputTest, ControlCharactersCannotChangeOtherLines) {
     EXPECT_EQ(output_.read_all(), "[plan] a?[2Jb??\t~ \xc3\xa4\n[plan] [safety] c\n[plan] ?d\n");
 }
 
+TEST_F(PartitionOutputTest, ControlCharactersOfTwoOctetsAreReplacedToo) {
+    verifies("SWR-PRT-062", Technique::kBoundaryValues, Polarity::kViolation);
+    say(sut_.get_output(),
+        "\xc2\x80 \xc2\x9b"
+        "2J \xc2\x9f \xc2\xa0 \xc3\x9f\n");
+    EXPECT_GT(forward(), 0U);
+
+    EXPECT_EQ(output_.read_all(), "[plan] ?? ??2J ?? \xc2\xa0 \xc3\x9f\n");
+}
+
 TEST_F(PartitionOutputTest, ALongNameIsCut) {
     verifies("SWR-PRT-062", Technique::kBoundaryValues);
     const std::string longest(PartitionOutput::kNameMax, 'n');
