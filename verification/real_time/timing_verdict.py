@@ -28,8 +28,9 @@ from mamori_tools.host.project import RELEASE, ROOT, Project
 from mamori_tools.timing.analysis import Miss, list_misses
 from mamori_tools.timing.reader import Measurement, read_measurement
 from mamori_tools.timing.run import LOAD_TOOL, make_load
+from mamori_tools.timing.runner import STEAL_NS_MIN, STOLEN
 from mamori_tools.timing.switches import OWN
-from mamori_tools.timing.verdict import COMPONENT, NOT_KNOWN, OUTSIDE, STEAL_NS_MIN, STOLEN
+from mamori_tools.timing.verdict import COMPONENT, NOT_KNOWN, OUTSIDE
 from mamori_trace.base.errors import WorkError
 
 PROGRAM = "tools/probe/timing/mamori_timing_events"

@@ -12,8 +12,9 @@ import pytest
 
 from mamori_tools.timing.analysis import Miss
 from mamori_tools.timing.reader import STEP
+from mamori_tools.timing.runner import STOLEN
 from mamori_tools.timing.switches import KERNEL, OTHER, OWN, STEP_USE, Thread
-from mamori_tools.timing.verdict import COMPONENT, NOT_KNOWN, OUTSIDE, OWN_PROCESS, STOLEN
+from mamori_tools.timing.verdict import COMPONENT, NOT_KNOWN, OUTSIDE, OWN_PROCESS
 from verification.real_time import timing_verdict
 from verification.real_time.timing_verdict import Tally, judge, main
 

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mamori_tools.table.document import Table, read_table
+from mamori_tools.timing.runner import RunnerTimes, find_runner_times
 from mamori_tools.timing.switches import SLICE, STEP_USE, WINDOW_USE, State, Switches, read_states, read_switches
 from mamori_trace.base.errors import InputError
 from mamori_trace.base.json_node import JsonNode
@@ -89,6 +91,17 @@ class Measurement:
         """The instances of one window, in order of time."""
         first, last = np.searchsorted(self.openings["window"], [window, window + 1])
         return slice(int(first), int(last))
+
+    @cached_property
+    def runner_times(self) -> tuple[RunnerTimes, ...]:
+        """Per core with a record of its switches."""
+        if self.switches is None:
+            return ()
+        cores = np.array([window.core for window in self.table.windows])[self.openings["window"]]
+        order = np.argsort(self.openings["closed_ns"], kind="stable")
+        rows = [order[cores[order] == index] for index in range(len(self.switches.cores))]
+        return tuple(find_runner_times(log, self.openings[of_it], self.switches.window_use[of_it])
+                     for log, of_it in zip(self.switches.cores, rows, strict=True))  # fmt: skip
 
     @property
     def refused(self) -> list[Right]:

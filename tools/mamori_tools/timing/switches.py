@@ -17,7 +17,8 @@ from mamori_trace.base.json_node import JsonNode
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
-WINDOW_USE = np.dtype([("own_ns", "<i8"), ("outside_ns", "<i8"), ("thread", "<u4"), ("state", "<u4")])
+WINDOW_USE = np.dtype([("own_ns", "<i8"), ("outside_ns", "<i8"), ("thread", "<u4"), ("state", "<u4"), ("reading_ns", "<i8"),
+                       ("reading_cpu_ns", "<i8"), ("runner_cpu_ns", "<i8")])  # fmt: skip
 STEP_USE = np.dtype([("cpu_ns", "<i8"), ("voluntary", "<u4"), ("involuntary", "<u4")])
 SLICE = np.dtype([("begin_ns", "<i8"), ("end_ns", "<i8"), ("core", "<u4"), ("thread", "<u4"), ("process", "<u4"), ("left", "<u4")])
 KINDS = ("own", "other", "kernel")
@@ -27,11 +28,14 @@ PREEMPTED, WAITING = range(2)
 IDLE = 0
 UNKNOWN_THREAD = 2**32 - 1
 NO_STATE = 2**32 - 1
+CPU_NOT_KNOWN = -1
+UNKNOWN_PRIORITY = -1
+"""Priority of a thread that had ended before its priority could be read."""
 
 
 @dataclass(frozen=True)
 class Thread:
-    """`priority`: fixed priority of a thread of the program, 0: none. `name`: empty if it had ended."""
+    """`priority`: fixed priority of a thread of the program, 0: none, or UNKNOWN_PRIORITY. `name`: empty if it had ended."""
 
     thread: int
     process: int
@@ -107,10 +111,14 @@ def read_switches(node: JsonNode, slices: Array, window_use: Array, step_use: Ar
     cores = [_read_core(one, slices[slices["core"] == index], windows) for index, one in enumerate(node.at("cores").items())]
     if len(slices) and int(slices["core"].max()) >= len(cores):
         raise node.complain(f"has {len(cores)} cores, slices.npy has slices of core {int(slices['core'].max())}")
-    threads = [Thread(one.at("thread").count(), one.at("process").count(), KINDS[one.at("kind").index(len(KINDS))], one.at("priority").count(),
-                      one.at("name").text()) for one in node.at("threads").items()]  # fmt: skip
+    threads = [Thread(one.at("thread").count(), one.at("process").count(), KINDS[one.at("kind").index(len(KINDS))],
+                      _read_priority(one.at("priority")), one.at("name").text()) for one in node.at("threads").items()]  # fmt: skip
     return Switches(tuple(cores), {one.thread: one for one in threads}, window_use, step_use,
                     tuple(one.whole() for one in node.at("continued_ns").items()))  # fmt: skip
+
+
+def _read_priority(node: JsonNode) -> int:
+    return UNKNOWN_PRIORITY if node.whole() == UNKNOWN_PRIORITY else node.count()
 
 
 def read_states(node: JsonNode, window_use: Array) -> tuple[State, ...]:

@@ -10,7 +10,8 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from mamori_tools.timing.reader import NOT_BACK, Array, Measurement
-from mamori_tools.timing.switches import IDLE, OWN, UNKNOWN_THREAD, WAITING, CoreLog, Switches
+from mamori_tools.timing.runner import DEVICES, STEAL_NS_MIN, STOLEN
+from mamori_tools.timing.switches import IDLE, OWN, PREEMPTED, UNKNOWN_PRIORITY, UNKNOWN_THREAD, WAITING, CoreLog, Switches
 
 COMPONENT, OWN_PROCESS, OUTSIDE, NOT_KNOWN = "component", "own process", "outside", "not known"
 VERDICTS = (COMPONENT, OWN_PROCESS, OUTSIDE, NOT_KNOWN)
@@ -21,11 +22,8 @@ CONTINUED_AFTER_NS = 5_000_000
 """The same, after the wait that contained the stop."""
 RUNNER_DUE_NS = 500_000
 """A runner that has not run for so long after the deadline was kept from running."""
-STEAL_NS_MIN = 50_000
-"""Difference between presence on the processor and CPU time from which the host must have used it."""
 USED_SHARE = 0.9
 """A window that used this share of its budget itself needs no other cause."""
-STOLEN = "the hypervisor or interrupts used the processor"
 
 
 @dataclass(frozen=True)
@@ -69,6 +67,7 @@ class _Core:
     log: CoreLog
     switches: Switches
     window: int
+    index: int
 
     @property
     def thread(self) -> int:
@@ -81,7 +80,8 @@ class _Core:
     def blame(self, blame: _Blame, begin_ns: int, end_ns: int, waiting: int, neutral: frozenset[int]) -> None:
         """Adds who ran in the interval although the thread `waiting` wanted to run. `neutral` threads belong to the work itself."""
         covered, priority = begin_ns, self.get_priority(waiting)
-        for one in self.log.between(begin_ns, end_ns):
+        slices = self.log.between(begin_ns, end_ns)
+        for number, one in enumerate(slices):
             begin, end = max(covered, int(one["begin_ns"])), min(end_ns, int(one["end_ns"]))
             blame.add(NOT_KNOWN, "", begin - covered)
             covered = max(covered, end)
@@ -95,15 +95,24 @@ class _Core:
             elif not self._is_own(thread):
                 blame.add(OUTSIDE, f"{self.switches.name(thread, int(one['process']))} ran", end - begin)
             elif thread == self.log.runner:
-                blame.add(OWN_PROCESS, "the thread of the windows ran (devices, observers)", end - begin)
+                for use, time in self.run.runner_times[self.index].list_uses(begin, end):
+                    blame.add(OWN_PROCESS if use == DEVICES else OUTSIDE, use, time)
             elif working := self._find_component(thread, begin):
                 blame.add(COMPONENT, working, end - begin)
-            elif self.get_priority(thread) < priority:
+            elif self._has_less_than(priority, waiting, slices[number : number + 2]):
                 # It ran because the waiting thread did not want to run yet, or was kept from it by the host.
                 blame.add(OUTSIDE, "a thread of lower priority ran (the host did not wake the thread of the window)", end - begin)
             else:
                 blame.add(OWN_PROCESS, f"{self.switches.name(thread, int(one['process']))} ran", end - begin)
         blame.add(NOT_KNOWN, "", end_ns - covered)
+
+    def _has_less_than(self, priority: int, waiting: int, slices: Array) -> bool:
+        """Whether the thread of the first slice has a lower priority. One that ended before its priority could be read has it if the waiting
+        thread preempted it."""
+        known = self.get_priority(int(slices[0]["thread"]))
+        if known != UNKNOWN_PRIORITY:
+            return known < priority
+        return len(slices) > 1 and int(slices[0]["left"]) == PREEMPTED and int(slices[1]["thread"]) == waiting
 
     def calc_presence(self, thread: int, begin_ns: int, end_ns: int) -> int:
         """Time [ns] of a thread on the processor within an interval."""
@@ -152,7 +161,7 @@ def _find_core(run: Measurement, window: int) -> _Core | None:
     switches, core = run.switches, run.table.windows[window].core
     if switches is None or core >= len(switches.cores) or not switches.cores[core].is_known or not len(switches.cores[core].slices):
         return None
-    return _Core(run, switches.cores[core], switches, window)
+    return _Core(run, switches.cores[core], switches, window, core)
 
 
 def judge_late(run: Measurement, opening: Array) -> Cause:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from mamori_tools.timing.reader import OPENING, STEP
-from mamori_tools.timing.switches import NO_STATE, SLICE, STEP_USE, WINDOW_USE
+from mamori_tools.timing.switches import CPU_NOT_KNOWN, NO_STATE, SLICE, STEP_USE, WINDOW_USE
 
 REFERENCE_NS = 1_000
 US = 1_000
@@ -99,6 +99,7 @@ def write_switches(folder: Path, openings: int, step_use: Sequence[tuple[int, in
     @param slices begin [ns], end [ns], thread, process, left."""
     window_use = np.zeros(openings, WINDOW_USE)
     window_use["state"] = states if states else NO_STATE
+    window_use["reading_cpu_ns"] = window_use["runner_cpu_ns"] = CPU_NOT_KNOWN
     np.save(folder / "window_use.npy", window_use)
     np.save(folder / "step_use.npy", np.array(list(step_use), STEP_USE))
     np.save(folder / "slices.npy", np.array([(begin, end, 0, *rest) for begin, end, *rest in slices], SLICE))

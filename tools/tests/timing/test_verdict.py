@@ -20,9 +20,9 @@ from mamori_trace.base.errors import InputError
 
 TABLE = make_table(windows=(("work", 0, 100, 300, 1000, 200),), components=(("first", 0, None, 0),), connections=())
 US = 1000
-RUNNER, WORK, OWN, LOW, OTHER, KERNEL, ENDED = 11, 20, 31, 32, 41, 42, 43
+RUNNER, WORK, OWN, LOW, BRIEF, OTHER, KERNEL, ENDED = 11, 20, 31, 32, 33, 41, 42, 43
 PREEMPTED, WAITS = 0, 1
-PROCESS = {RUNNER: 10, WORK: 10, OWN: 10, LOW: 10, OTHER: 41, KERNEL: 42, ENDED: 43, 0: 0, 2**32 - 1: 10}
+PROCESS = {RUNNER: 10, WORK: 10, OWN: 10, LOW: 10, BRIEF: 10, OTHER: 41, KERNEL: 42, ENDED: 43, 0: 0, 2**32 - 1: 10}
 THREADS = [{"thread": OWN, "process": 10, "kind": 0, "priority": 85, "name": "burner"},
            {"thread": LOW, "process": 10, "kind": 0, "priority": 60, "name": "low"},
            {"thread": OTHER, "process": 41, "kind": 1, "priority": 0, "name": "hog"},
@@ -200,7 +200,7 @@ def test_only_the_program_itself_causes_findings(tmp_path: Path) -> None:
 def test_use_of_the_processor_is_shown_per_window(tmp_path: Path) -> None:
     run = read(tmp_path, (10, 90, COMPLETED), (12, 80), [], use=(60 * US, 1, 2))
     assert run.switches is not None
-    run.switches.window_use[1] = (5 * US, 7 * US, OWN, NO_STATE)
+    run.switches.window_use[1] = (5 * US, 7 * US, OWN, NO_STATE, 0, -1, -1)
 
     use = list_windows(run)[0].use
 
@@ -254,3 +254,43 @@ def test_limits_apply_to_every_cause(tmp_path: Path, missed: int | None, late_us
     found = list_limit_findings(list_windows(run), list_misses(run), missed, None if late_us is None else round(late_us * US))
 
     assert len(found) == count
+
+
+@pytest.mark.verifies("SWR-TIM-044", polarity="violation")
+@pytest.mark.parametrize(("closed", "reading", "cpu", "verdict", "said"), [
+    # The planned start is at 2100 us; the runner is on the processor from 2050 us to 2420 us and starts the window at 2410 us.
+    (1190, (20, 20), 360, OWN_PROCESS, "the thread of the windows ran (devices, observers) for 310.0 us"),
+    (2050, (340, 340), 20, OUTSIDE, "the measurement ran (reading of the switches) for 290.0 us"),
+    (2050, (170, 170), 190, OWN_PROCESS, "the thread of the windows ran (devices, observers) for 190.0 us"),
+    (2050, (340, 40), 20, OUTSIDE, "the hypervisor or interrupts used the processor for 290.0 us"),
+    (1190, (20, 20), 311, OWN_PROCESS, "the thread of the windows ran (devices, observers) for 310.0 us"),
+    (1190, (20, 20), 310, OWN_PROCESS, "the thread of the windows ran (devices, observers) for 260.0 us"),
+    (1190, (20, 20), 60, OUTSIDE, "the hypervisor or interrupts used the processor for 300.0 us"),
+    (2390, (5, 5), 300, OUTSIDE, "the executive ran in the window before (slowed by the host) for 290.0 us"),
+])  # fmt: skip
+def test_time_of_the_runner_is_of_the_program_only_outside_of_the_measurement(tmp_path: Path, closed: int, reading: tuple[int, int], cpu: int,
+                                                                              verdict: str, said: str) -> None:  # fmt: skip
+    run = read(tmp_path, LATE, None, [(-50, 320, RUNNER, WAITS)])
+    assert run.switches is not None
+    run.openings["closed_ns"][0] = closed * US
+    run.switches.window_use["reading_ns"][0], run.switches.window_use["reading_cpu_ns"][0] = reading[0] * US, reading[1] * US
+    run.switches.window_use["runner_cpu_ns"][1] = cpu * US
+
+    miss = list_misses(run)[0]
+
+    assert miss.verdict == verdict and said in miss.reason
+
+
+@pytest.mark.verifies("SWR-TIM-044", technique="equivalence_classes")
+@pytest.mark.parametrize(("left", "next_thread", "verdict", "said"), [
+    (WAITS, RUNNER, OWN_PROCESS, "thread 33 of the program ran for 300.0 us"),
+    (PREEMPTED, OTHER, OWN_PROCESS, "thread 33 of the program ran for 300.0 us"),
+    (PREEMPTED, RUNNER, OUTSIDE, "a thread of lower priority ran"),
+])  # fmt: skip
+def test_thread_that_ended_before_its_priority_was_read_is_judged_by_how_it_left(tmp_path: Path, left: int, next_thread: int, verdict: str,
+                                                                                 said: str) -> None:  # fmt: skip
+    ended = {"thread": BRIEF, "process": 10, "kind": 0, "priority": -1, "name": ""}
+
+    miss = judge(tmp_path, LATE, None, [(-50, 300, BRIEF, left), (300, 305, next_thread, WAITS), (305, 320, RUNNER, WAITS)], threads=[*THREADS, ended])
+
+    assert miss.verdict == verdict and said in miss.reason

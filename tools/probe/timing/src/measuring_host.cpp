@@ -15,6 +15,11 @@ constexpr Duration kAfter{50'000'000};
 /// The same, at most, while work is outstanding.
 constexpr Duration kAfterMax{1'000'000'000};
 
+/// Records that are read after a window: these, and one more per time unit of the distance of the planned
+/// window starts. So the reading takes about 3 % of the time, also when switches have accumulated.
+constexpr std::int64_t kRecordsMin = 256;
+constexpr Duration kTimePerRecord{1'000};
+
 /// CPU time and switches of the calling thread since its start.
 struct ThreadUse {
     std::int64_t cpu_ns{0};
@@ -22,12 +27,15 @@ struct ThreadUse {
     std::uint32_t involuntary{0U};
 };
 
+std::int64_t get_cpu_ns() noexcept {
+    timespec time{};
+    static_cast<void>(clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time));
+    return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
+}
+
 ThreadUse get_own_use() noexcept {
     ThreadUse use;
-    timespec time{};
-    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0) {
-        use.cpu_ns = static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
-    }
+    use.cpu_ns = get_cpu_ns();
     rusage counts{};
     if (getrusage(RUSAGE_THREAD, &counts) == 0) {
         use.voluntary = static_cast<std::uint32_t>(counts.ru_nvcsw);
@@ -89,9 +97,8 @@ void MeasuringHost::after_opening(const FrameSchedule::Opening& opening, WindowO
         note_switches(opening);
     }
     if (get_state_ != nullptr && !has_work_out()) {
-        state_ = static_cast<std::uint32_t>((*get_state_)());
+        current_.state = static_cast<std::uint32_t>((*get_state_)());
     }
-    current_.state = state_;
     log_.add_opening(current_);
     if (next_ != nullptr) {
         next_->after_opening(opening, outcome);
@@ -99,13 +106,20 @@ void MeasuringHost::after_opening(const FrameSchedule::Opening& opening, WindowO
 }
 
 void MeasuringHost::note_switches(const FrameSchedule::Opening& opening) noexcept {
-    switches_->read();
+    const std::int64_t begin_ns = get_cpu_ns();
+    const Duration distance = last_release_ == kNever ? Duration{0} : current_.release - last_release_;
+    switches_->read(static_cast<std::size_t>(kRecordsMin + distance.ns / kTimePerRecord.ns));
     current_.use = switches_->calc_use(current_.release, current_.closed, get_thread(opening.window));
     const bool is_event = current_.outcome == WindowOutcome::kOverrun ||
                           current_.outcome == WindowOutcome::kMissed ||
                           current_.woke - current_.release > kLate;
     event_ = is_event ? current_.closed : event_;
     switches_->settle(is_near_event(current_.closed));
+    current_.runner_cpu_ns = cpu_ns_ == kNoInstant.ns ? kNoInstant.ns : begin_ns - cpu_ns_;
+    cpu_ns_ = get_cpu_ns();
+    current_.reading_cpu_ns = cpu_ns_ - begin_ns;
+    current_.reading = inner_.get_now() - current_.closed;
+    last_release_ = current_.release;
 }
 
 bool MeasuringHost::is_near_event(Instant now) const noexcept {

@@ -67,6 +67,8 @@ Right SwitchLog::open(int processor, const FrameClock& clock) noexcept {
             mmap(nullptr, ring_size_, PROT_READ | PROT_WRITE, MAP_SHARED, static_cast<int>(file), 0);
         if (ring != MAP_FAILED) {
             ring_ = ring;
+            data_ = static_cast<const char*>(ring) + get_page_size();
+            data_mask_ = pages * get_page_size() - 1U;
             file_ = static_cast<int>(file);
             epoch_ns_ = clock.get_epoch_ns();
             process_ = static_cast<std::uint32_t>(getpid());
@@ -82,7 +84,7 @@ void SwitchLog::take_runner() noexcept {
     runner_ = static_cast<std::uint32_t>(gettid());
 }
 
-void SwitchLog::read() noexcept {
+void SwitchLog::read(std::size_t record_max) noexcept {
     std::swap(batch_.slices, previous_.slices);
     previous_.count = batch_.count;
     previous_.is_stored = batch_.is_stored;
@@ -94,7 +96,7 @@ void SwitchLog::read() noexcept {
     auto& page = *static_cast<perf_event_mmap_page*>(ring_);
     const std::uint64_t head = __atomic_load_n(&page.data_head, __ATOMIC_ACQUIRE);
     std::uint64_t position = page.data_tail;
-    while (position < head) {
+    for (std::size_t i = 0U; i < record_max && position < head; ++i) {
         const std::uint64_t word = load_word(position);
         perf_event_header header{};
         std::memcpy(&header, &word, sizeof header);
@@ -132,16 +134,16 @@ void SwitchLog::read_record(std::uint64_t position, std::uint32_t misc) noexcept
     }
     if (has_gap_) {
         slice.thread = slice.process = kUnknownThread;
+    } else if (slice.process == process_) {
+        note_own(slice.thread, false);
     }
     add_slice(slice);
 }
 
 /// Records have multiples of 8 bytes, so a word does not cross the end of the buffer.
 std::uint64_t SwitchLog::load_word(std::uint64_t position) const noexcept {
-    const std::size_t page = get_page_size();
-    const auto* const data = static_cast<const char*>(ring_) + page;
     std::uint64_t word = 0U;
-    std::memcpy(&word, data + position % (ring_size_ - page), sizeof word);
+    std::memcpy(&word, data_ + (position & data_mask_), sizeof word);
     return word;
 }
 
@@ -193,7 +195,7 @@ void SwitchLog::store(Batch& batch) noexcept {
     for (std::size_t i = 0U; i < batch.count; ++i) {
         const Slice& slice = batch.slices[i];
         if (slice.process == process_) {
-            note_own(slice.thread);
+            note_own(slice.thread, true);
         }
         if (kept_count_ == kept_.size()) {
             ++lost_count_;
@@ -204,22 +206,25 @@ void SwitchLog::store(Batch& batch) noexcept {
     }
 }
 
-/// A thread that has ended keeps the priority of its last switch that was kept.
-void SwitchLog::note_own(std::uint32_t thread) noexcept {
+/// Reads the priority when the thread is seen first, because it can end soon, and at kept switches, because
+/// the priority can change. A thread that has ended keeps the last one.
+void SwitchLog::note_own(std::uint32_t thread, bool is_kept) noexcept {
     std::size_t index = 0U;
     while (index < own_count_ && own_[index].thread != thread) {
         ++index;
     }
-    if (index == own_.size() || thread == kUnknownThread) {
+    const bool is_first = index == own_count_;
+    if (index == own_.size() || thread == kUnknownThread || !(is_first || is_kept)) {
         return;
     }
     sched_param parameters{};
     const bool is_there = sched_getparam(static_cast<pid_t>(thread), &parameters) == 0;
-    if (index == own_count_) {
-        own_[index] = {thread, 0};
+    if (is_first) {
+        own_[index] = {thread};
         ++own_count_;
     }
-    own_[index].priority = std::max(own_[index].priority, is_there ? parameters.sched_priority : 0);
+    own_[index].priority =
+        std::max(own_[index].priority, is_there ? parameters.sched_priority : kUnknownPriority);
 }
 
 }  // namespace mamori::timing

@@ -72,14 +72,18 @@ std::vector<NamedThread> list_threads(const std::vector<const SwitchLog*>& logs)
         for (const Slice& slice : log->get_kept()) {
             if (slice.process != 0U && slice.thread != kUnknownThread) {
                 const ThreadKind kind = slice.process == own ? ThreadKind::kOwn : ThreadKind::kOther;
-                threads.try_emplace(slice.thread, NamedThread{slice.thread, slice.process, kind, 0, {}});
+                const int priority = slice.process == own ? kUnknownPriority : 0;
+                threads.try_emplace(slice.thread,
+                                    NamedThread{slice.thread, slice.process, kind, priority, {}});
             }
         }
     }
     for (const SwitchLog* log : logs) {
         for (const OwnThread& one : log->get_own_threads()) {
-            NamedThread& thread = threads[one.thread];
-            thread.priority = std::max(thread.priority, one.priority);
+            const auto thread = threads.find(one.thread);
+            if (thread != threads.end()) {
+                thread->second.priority = std::max(thread->second.priority, one.priority);
+            }
         }
     }
     std::vector<NamedThread> named;

@@ -23,7 +23,7 @@ struct NamedThread {
     std::uint32_t thread{0U};
     std::uint32_t process{0U};
     ThreadKind kind{ThreadKind::kOther};
-    int priority{0};   ///< fixed priority of an own thread, 0: none; 0 for all others
+    int priority{0};   ///< fixed priority of an own thread, 0: none, or kUnknownPriority; 0 for all others
     std::string name;  ///< empty: the thread has ended
 };
 

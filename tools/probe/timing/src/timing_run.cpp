@@ -36,6 +36,8 @@ using ports::posix_rt::ThreadPlace;
 
 /// From the first thread to the first major frame: longer than a busy host needs to start all threads.
 constexpr Duration kLead{500'000'000};
+/// Before the first major frame, the switches until then are read, which takes up to 1 ms.
+constexpr Duration kQuiet{20'000'000};
 /// Time limit for the return of work that was aborted at the end of the run.
 constexpr Duration kPatience{1'000'000'000};
 constexpr Duration kPoll{5'000'000};
@@ -233,10 +235,12 @@ std::string check(const std::vector<TimedCore>& cores, const TimingOptions& opti
     return {};
 }
 
-void run_core(CoreSession& core, std::uint64_t cycles, ThreadPlace place) {
+void run_core(CoreSession& core, const FrameClock& clock, std::uint64_t cycles, ThreadPlace place) {
     core.priority = ports::posix_rt::set_priority(pthread_self(), place.priority);
     core.processor = ports::posix_rt::set_processor(pthread_self(), place.processor);
     core.switches.take_runner();
+    clock.wait_until(Instant{0} - kQuiet);
+    core.switches.read();
     core.runner.run(cycles);
     core.host.finish();
 }
@@ -284,8 +288,8 @@ void run_all(Session& session, const TimingOptions& options, const std::vector<i
     };
     try {
         for (std::size_t i = 0U; i < session.cores.size(); ++i) {
-            threads.emplace_back(run_core, std::ref(*session.cores[i]), options.cycles,
-                                 ThreadPlace{options.priority, processors[i]});
+            threads.emplace_back(run_core, std::ref(*session.cores[i]), std::cref(*session.clock),
+                                 options.cycles, ThreadPlace{options.priority, processors[i]});
         }
     } catch (const std::system_error&) {
         for (const std::unique_ptr<CoreSession>& core : session.cores) {

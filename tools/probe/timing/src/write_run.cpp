@@ -75,13 +75,22 @@ StepFiles make_steps(const std::vector<const RunLog*>& logs) {
 
 /// One row for each of openings.npy.
 std::string make_window_use(const std::vector<const RunLog*>& logs) {
-    NpyTable table{{{"own_ns", 8U}, {"outside_ns", 8U}, {"thread", 4U}, {"state", 4U}}};
+    NpyTable table{{{"own_ns", 8U},
+                    {"outside_ns", 8U},
+                    {"thread", 4U},
+                    {"state", 4U},
+                    {"reading_ns", 8U},
+                    {"reading_cpu_ns", 8U},
+                    {"runner_cpu_ns", 8U}}};
     for (const OpeningRow* row :
          merge<OpeningRow>(logs, [](const RunLog& log) { return log.get_openings(); })) {
         table.add(row->use.own.ns);
         table.add(row->use.outside.ns);
         table.add(row->use.thread);
         table.add(row->state);
+        table.add(row->reading.ns);
+        table.add(row->reading_cpu_ns);
+        table.add(row->runner_cpu_ns);
     }
     return table.make();
 }

@@ -47,18 +47,19 @@ enum class Kind : std::uint8_t {
     kHang,        ///< the component works for several cycles
     kOwnAbove,    ///< a thread of the program holds the runner
     kOwnBetween,  ///< a thread of the program holds the window only
+    kOwnBrief,    ///< as kOwnAbove, by a thread that begins and ends with the event
     kHogBefore,   ///< a process of the highest priority begins before the window
     kHogWithin,   ///< the same within the step of the component
     kStopBefore,  ///< the program is stopped before the window
     kStopWithin,  ///< the same within the step of the component
 };
-constexpr std::size_t kKinds = 9U;
-constexpr std::array<const char*, kKinds> kNames{"spin",       "wait",        "hang",
-                                                 "own above",  "own between", "hog before",
-                                                 "hog within", "stop before", "stop within"};
-constexpr std::array<const char*, kKinds> kLabels{"component",   "component",   "component",
-                                                  "own process", "own process", "outside",
-                                                  "outside",     "outside",     "outside"};
+constexpr std::size_t kKinds = 10U;
+constexpr std::array<const char*, kKinds> kNames{"spin",        "wait",       "hang",       "own above",
+                                                 "own between", "own brief",  "hog before", "hog within",
+                                                 "stop before", "stop within"};
+constexpr std::array<const char*, kKinds> kLabels{"component",   "component",   "component", "own process",
+                                                  "own process", "own process", "outside",   "outside",
+                                                  "outside",     "outside"};
 
 struct Event {
     Kind kind{Kind::kSpin};
@@ -104,6 +105,7 @@ std::vector<Event> make_plan(std::uint32_t seed, std::uint64_t cycles) {
                 plan.push_back({kind, cycle, 0, draw(random, 12 * kMs, 18 * kMs)});
                 break;
             case Kind::kOwnAbove:
+            case Kind::kOwnBrief:
             case Kind::kHogBefore:
             case Kind::kStopBefore:
                 plan.push_back({kind, cycle, -draw(random, kMs / 10, kMs), draw(random, 6 * kMs, 20 * kMs)});
@@ -244,6 +246,26 @@ std::thread start_rival(const Shared& shared, const std::vector<Event>& plan, Ki
     }};
 }
 
+/// Starts a thread for each event. It waits on another processor than that of the windows, if there is one,
+/// and ends with the event.
+std::thread start_brief_rivals(const Shared& shared, const std::vector<Event>& plan) {
+    return std::thread{[&shared, &plan] {
+        const int windows = find_processor(true);
+        static_cast<void>(set_processor(pthread_self(), find_processor(false)));
+        static_cast<void>(set_priority(pthread_self(), 85));
+        for (const Event& event : plan) {
+            if (event.kind == Kind::kOwnBrief) {
+                std::thread{[&shared, &event, windows] {
+                    follow(shared, {event}, Kind::kOwnBrief, Kind::kOwnBrief, [windows](const Event& one) {
+                        static_cast<void>(set_processor(pthread_self(), windows));
+                        spin(CLOCK_MONOTONIC, one.length_ns);
+                    });
+                }}.join();
+            }
+        }
+    }};
+}
+
 /// A busy thread that no window waits for, because its priority is lower.
 std::thread start_harmless(const Shared& shared) {
     return std::thread{[&shared] {
@@ -289,12 +311,13 @@ int run_events(const timing::TimingOptions& options, std::uint32_t seed) {
     Announcer announcer{shared};
     std::thread above = start_rival(shared, plan, Kind::kOwnAbove, 85);
     std::thread between = start_rival(shared, plan, Kind::kOwnBetween, 75);
+    std::thread brief = start_brief_rivals(shared, plan);
     std::thread harmless = start_harmless(shared);
     // Linux hands a stop to the main thread first, which must not wait for the load.
     static_cast<void>(set_priority(pthread_self(), 50));
     const timing::TimingResult result = timing::run_timing({{executive, threads, &announcer}}, options);
     shared.is_over.store(true);
-    for (std::thread* one : {&above, &between, &harmless}) {
+    for (std::thread* one : {&above, &between, &brief, &harmless}) {
         one->join();
     }
     static_cast<void>(waitpid(child, nullptr, 0));

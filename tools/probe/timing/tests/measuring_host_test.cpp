@@ -8,6 +8,7 @@
 
 #include <array>
 #include <chrono>
+#include <functional>
 #include <thread>
 
 #include "mamori/kernel/system/system.hpp"
@@ -130,6 +131,44 @@ TEST_F(MeasuringHostTest, EachStepHasTheCpuTimeAndSwitchesOfItsThread) {
     }
     EXPECT_GE(log.get_steps()[0].voluntary, 2U) << "the step waited twice";
     EXPECT_EQ(log.get_steps()[1].voluntary, 0U);
+}
+
+TEST_F(MeasuringHostTest, TimeOfTheReadingOfTheSwitchesIsNotThatOfTheRunner) {
+    verifies("SWR-TIM-042");
+    RunLog log{4U, 16U};
+    SwitchLog switches{8U};
+    MeasuringHost sut{inner_, log, 1U, nullptr, &switches};
+
+    EXPECT_EQ(open(sut, 0U, Instant{0}), WindowOutcome::kCompleted);
+    EXPECT_EQ(open(sut, 0U, Instant{10'000'000}), WindowOutcome::kCompleted);
+
+    const Span<const OpeningRow> rows = log.get_openings();
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0].runner_cpu_ns, kNoInstant.ns) << "no reading before it";
+    EXPECT_GT(rows[1].runner_cpu_ns, 0);
+    for (const OpeningRow& row : rows) {
+        EXPECT_EQ(row.reading, Duration{10}) << "one reading of the clock later";
+        EXPECT_GT(row.reading_cpu_ns, 0);
+    }
+}
+
+TEST_F(MeasuringHostTest, WindowWithOutstandingWorkHasNoState) {
+    verifies("SWR-TIM-046", Technique::kFaultInjection, Polarity::kViolation);
+    RunLog log{4U, 16U};
+    MeasuringHost sut{inner_, log, 1U, nullptr};
+    const std::function<std::size_t()> get_state = [] { return std::size_t{3U}; };
+    sut.set_state_source(get_state);
+
+    EXPECT_EQ(open(sut, 0U, Instant{0}), WindowOutcome::kCompleted);
+    inner_.hanging_window = 0U;
+    EXPECT_EQ(open(sut, 0U, Instant{10'000'000}), WindowOutcome::kCompleted);
+    inner_.hanging_window = kNoIndex;
+    EXPECT_EQ(open(sut, 0U, Instant{20'000'000}), WindowOutcome::kCompleted);
+
+    ASSERT_EQ(log.get_openings().size(), 3U);
+    EXPECT_EQ(log.get_openings()[0].state, 3U);
+    EXPECT_EQ(log.get_openings()[1].state, kNoState) << "the state of the window before may have changed";
+    EXPECT_EQ(log.get_openings()[2].state, 3U);
 }
 
 TEST_F(MeasuringHostTest, WhatTheInnerHostSaysGoesThrough) {

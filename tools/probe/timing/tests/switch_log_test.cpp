@@ -153,6 +153,80 @@ TEST_F(SwitchLogTest, RunnerAndWindowThreadDoNotCountAsOthers) {
     EXPECT_LT(use.own, Duration{10'000'000}) << "of 20 ms; other threads of the test may run for a moment";
 }
 
+TEST_F(SwitchLogTest, ThreadOfTheProgramThatHasEndedIsStillOneOfTheProgram) {
+    verifies("SWR-TIM-042", Technique::kErrorGuessing, Polarity::kViolation);
+    if (!open()) {
+        GTEST_SKIP() << "verdict=not-shown: this host does not permit to record switches";
+    }
+    std::atomic<std::uint32_t> seen{0U};
+    std::atomic<std::uint32_t> unseen{0U};
+    run([&] {
+        std::atomic<bool> is_over{false};
+        std::thread known{[&] {
+            static_cast<void>(ports::posix_rt::set_priority(pthread_self(), 2));
+            seen = static_cast<std::uint32_t>(gettid());
+            while (!is_over.load()) {
+                std::this_thread::sleep_for(milliseconds{1});
+            }
+        }};
+        while (seen == 0U) {
+            std::this_thread::sleep_for(milliseconds{1});
+        }
+        std::this_thread::sleep_for(milliseconds{2});
+        sut_.read();
+        sut_.settle(false);
+        is_over = true;
+        known.join();
+        std::thread{[&unseen] {
+            unseen = static_cast<std::uint32_t>(gettid());
+            work(milliseconds{2});
+        }}.join();
+        sut_.read();
+        sut_.settle(true);
+    });
+
+    const std::vector<NamedThread> named = list_threads({&sut_});
+    const auto find = [&named](std::uint32_t id) {
+        return std::find_if(named.begin(), named.end(),
+                            [id](const NamedThread& one) { return one.thread == id; });
+    };
+    ASSERT_NE(find(seen), named.end());
+    EXPECT_EQ(find(seen)->kind, ThreadKind::kOwn);
+    EXPECT_NE(find(seen)->priority, kUnknownPriority) << "it was read while the thread existed";
+    ASSERT_NE(find(unseen), named.end());
+    EXPECT_EQ(find(unseen)->kind, ThreadKind::kOwn);
+    EXPECT_EQ(find(unseen)->priority, kUnknownPriority);
+    EXPECT_EQ(find(unseen)->name, "");
+}
+
+TEST_F(SwitchLogTest, EachReadingHasALimitAndTheNextOneReadsTheRest) {
+    verifies("SWR-TIM-042", Technique::kBoundaryValues);
+    if (!open()) {
+        GTEST_SKIP() << "verdict=not-shown: this host does not permit to record switches";
+    }
+    std::array<std::size_t, 3U> kept{};
+    run([&] {
+        for (int i = 0; i < 20; ++i) {
+            std::this_thread::sleep_for(milliseconds{1});
+        }
+        const std::array<std::size_t, 3U> limits{0U, 10U, 1U << 20U};
+        for (std::size_t i = 0U; i < limits.size(); ++i) {
+            sut_.read(limits[i]);
+            sut_.settle(true);
+            kept[i] = sut_.get_kept().size();
+        }
+    });
+
+    EXPECT_EQ(kept[0], 0U);
+    EXPECT_GT(kept[1], 0U);
+    EXPECT_LE(kept[1], 10U) << "at most one slice of each record";
+    EXPECT_GE(kept[2], 20U);
+    EXPECT_EQ(sut_.get_lost_count(), 0U);
+    for (std::size_t i = 1U; i < sut_.get_kept().size(); ++i) {
+        EXPECT_EQ(sut_.get_kept()[i].begin, sut_.get_kept()[i - 1U].end) << "nothing is missing in between";
+    }
+}
+
 TEST_F(SwitchLogTest, OnlyTheSlicesAroundAnEventAreKept) {
     verifies("SWR-TIM-042", Technique::kEquivalenceClasses);
     if (!open()) {

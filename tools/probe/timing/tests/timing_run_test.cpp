@@ -189,7 +189,7 @@ TEST_F(TimingRunTest, TheStateOfTheSystemIsWrittenForEachWindow) {
                                             {{"name", "fast  one "}, {"is_operating", true}}}));
     const std::string use = read_file(folder_ + "/window_use.npy");
     std::uint32_t last = 0U;
-    std::memcpy(&last, &use[use.size() - sizeof last], sizeof last);
+    std::memcpy(&last, &use[use.size() - 28U], sizeof last);
     EXPECT_EQ(last, 1U);
 }
 

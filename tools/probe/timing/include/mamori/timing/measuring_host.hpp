@@ -51,7 +51,8 @@ class MeasuringHost final : public WindowHost, public ports::posix_rt::OpeningOb
     void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override;
     void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override;
 
-    /// @param[in] get_state asked after each window while no work is outstanding; must outlive this object.
+    /// @param[in] get_state called after each window while no work is outstanding; must outlive this object.
+    /// The other windows have no state.
     void set_state_source(const std::function<std::size_t()>& get_state) noexcept { get_state_ = &get_state; }
     /// Reads the switches after the last window, for work that returned later. Without a switch log: nothing.
     void finish() noexcept;
@@ -82,8 +83,9 @@ class MeasuringHost final : public WindowHost, public ports::posix_rt::OpeningOb
     std::vector<std::atomic<std::uint32_t>> threads_;
     Instant event_{kNever};  ///< end of the last window that was late or overran
     OpeningRow current_{};
+    Instant last_release_{kNever};        ///< of the window before
+    std::int64_t cpu_ns_{kNoInstant.ns};  ///< of the runner after the last reading; kNoInstant.ns: none yet
     const std::function<std::size_t()>* get_state_{nullptr};
-    std::uint32_t state_{kNoState};
 };
 
 }  // namespace mamori::timing

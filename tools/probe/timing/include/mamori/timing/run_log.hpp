@@ -33,6 +33,10 @@ struct OpeningRow {
     WindowOutcome outcome{WindowOutcome::kCompleted};
     std::uint32_t state{kNoState};  ///< of the system after the window, index in TimingOptions::states
     ProcessorUse use{};             ///< from the planned instant to the end; 0 without a switch log
+    Duration reading{0};            ///< from `closed` until the switches had been read
+    // CPU time of the thread that runs the windows; kNoInstant.ns: not known.
+    std::int64_t runner_cpu_ns{kNoInstant.ns};   ///< from the end of the reading before to `closed`
+    std::int64_t reading_cpu_ns{kNoInstant.ns};  ///< during `reading`
 };
 
 /// One step of a component. The thread that does the work writes `start` and `end`, possibly long after the

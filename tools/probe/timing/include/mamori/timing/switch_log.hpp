@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "mamori/kernel/base/span.hpp"
@@ -39,10 +40,13 @@ struct ProcessorUse {
     std::uint32_t thread{0U};  ///< the one with the longest slice; 0: none
 };
 
+/// Priority of a thread that had ended before its priority could be read.
+inline constexpr int kUnknownPriority = -1;
+
 /// A thread of this process that was seen on the processor.
 struct OwnThread {
     std::uint32_t thread{0U};
-    int priority{0};  ///< highest fixed priority at the kept switches, 1 .. 99; 0: none
+    int priority{kUnknownPriority};  ///< highest fixed priority that was read, 1 .. 99; 0: none
 };
 
 /// Switches of one processor.
@@ -72,9 +76,11 @@ class SwitchLog final {
     void take_runner() noexcept;
     std::uint32_t get_runner() const noexcept { return runner_; }
 
-    /// Reads the switches since the last call.
-    void read() noexcept;
-    /// Evaluates the slices of the last read(); time with lost switches is not counted.
+    /// Reads the next switches. @param[in] record_max records of Linux to read, about 30 ns and half a switch
+    /// each; the next call reads the rest.
+    void read(std::size_t record_max = std::numeric_limits<std::size_t>::max()) noexcept;
+    /// Evaluates the slices of the last read(); time with lost switches, or whose switches have not been read
+    /// yet, is not counted.
     /// @param[in] window_thread thread of the window; 0: unknown.
     ProcessorUse calc_use(Instant from, Instant to, std::uint32_t window_thread) const noexcept;
 
@@ -95,11 +101,13 @@ class SwitchLog final {
     void read_record(std::uint64_t position, std::uint32_t size) noexcept;
     void add_slice(const Slice& slice) noexcept;
     void store(Batch& batch) noexcept;
-    void note_own(std::uint32_t thread) noexcept;
+    void note_own(std::uint32_t thread, bool is_kept) noexcept;
     std::uint64_t load_word(std::uint64_t position) const noexcept;
 
     void* ring_{nullptr};
     std::size_t ring_size_{0U};
+    const char* data_{nullptr};  ///< of the ring, with a power of two of bytes
+    std::uint64_t data_mask_{0U};
     int file_{-1};
     std::int64_t epoch_ns_{0};
     std::uint32_t process_{0U};
