@@ -18,9 +18,6 @@ namespace {
 using ports::posix_rt::FrameClock;
 using ports::posix_rt::Right;
 
-constexpr std::size_t kRingPagesMax = 256U;
-constexpr std::size_t kRingPagesMin = 8U;
-
 /// Linux reads the rest of the structure as "not requested".
 perf_event_attr make_request() noexcept {
     perf_event_attr request{};
@@ -53,7 +50,7 @@ SwitchLog::~SwitchLog() {
     }
 }
 
-Right SwitchLog::open(int processor, const FrameClock& clock) noexcept {
+Right SwitchLog::open(int processor, const FrameClock& clock, std::size_t page_max) noexcept {
     perf_event_attr request = make_request();
     last_ = clock.get_now();
     const long file = syscall(SYS_perf_event_open, &request, -1, processor, -1, PERF_FLAG_FD_CLOEXEC);
@@ -61,7 +58,7 @@ Right SwitchLog::open(int processor, const FrameClock& clock) noexcept {
         return {false, errno};
     }
     int refusal = 0;
-    for (std::size_t pages = kRingPagesMax; pages >= kRingPagesMin; pages /= 2U) {
+    for (std::size_t pages = page_max; pages >= kPageMin; pages /= 2U) {
         ring_size_ = (pages + 1U) * get_page_size();
         void* const ring =
             mmap(nullptr, ring_size_, PROT_READ | PROT_WRITE, MAP_SHARED, static_cast<int>(file), 0);

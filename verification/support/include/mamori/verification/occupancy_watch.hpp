@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Records when other programs used a processor: only windows at these times can be affected by them. The
-/// Linux kernel records each context switch (perf_event_open).
+/// evidence is the switch log of the timing report.
 #ifndef MAMORI_VERIFICATION_OCCUPANCY_WATCH_HPP
 #define MAMORI_VERIFICATION_OCCUPANCY_WATCH_HPP
 
-#include <sys/types.h>
-
 #include <atomic>
-#include <cstddef>
 #include <cstdint>
 #include <thread>
 #include <vector>
 
 #include "mamori/ports/posix_rt/frame_clock.hpp"
+#include "mamori/timing/switch_log.hpp"
 #include "mamori/verification/stall_watch.hpp"
 
 namespace mamori::verification {
@@ -27,33 +25,26 @@ class OccupancyWatch final {
     OccupancyWatch(const ports::posix_rt::FrameClock& clock, int processor);
     OccupancyWatch(const OccupancyWatch&) = delete;
     OccupancyWatch& operator=(const OccupancyWatch&) = delete;
-    ~OccupancyWatch();
+    ~OccupancyWatch() { stop(); }
 
-    /// False if nothing is known: the kernel denies the events (root has them, and the 4 MiB of locked
-    /// memory), it lost events, more occurred than the capacity, or this process is in a container and cannot
-    /// see other programs.
+    /// False if nothing is known: the kernel denies the events (root has them), it lost events, more occurred
+    /// than the capacity, or this process is in a container and cannot see other programs.
     bool knows() const noexcept { return knows_.load(std::memory_order_relaxed); }
     /// Takes the remaining records and ends, within some milliseconds; a second call has no effect.
     void stop();
     /// Intervals from each context switch to a thread of another process or of the kernel, to the next
-    /// switch, ordered by time. Before the first recorded switch, another process counts as running.
+    /// switch, ordered by time.
     const std::vector<Stall>& get_foreign() const noexcept { return foreign_; }
 
   private:
-    struct Record;
     void follow();
-    void take_what_came();
-    void take(const Record& record);
-    void end_stretch(Instant at);
+    void take_slices();
+    void take_batch();
 
-    const ports::posix_rt::FrameClock& clock_;
+    timing::SwitchLog log_{0U};
     std::vector<Stall> foreign_{};
-    std::byte* ring_{nullptr};  ///< a page of the kernel, and its records
-    int descriptor_{-1};
-    pid_t own_;
+    std::uint32_t own_;
     std::atomic<bool> knows_{false};
-    bool is_foreign_{true};
-    Instant since_;
     std::atomic<bool> is_ending_{false};
     std::thread thread_{};
 };

@@ -58,6 +58,8 @@ class SwitchLog final {
   public:
     /// Slices between two windows; a busy host has a hundred per major frame.
     static constexpr std::size_t kBatch = 16384U;
+    static constexpr std::size_t kPageMin = 8U;
+    static constexpr std::size_t kPageMax = 256U;
 
     /// @param[in] capacity of the kept slices; further ones are counted and lost.
     /// @param[in] batch slices of one read(), > 0; further ones are counted and lost.
@@ -67,9 +69,11 @@ class SwitchLog final {
     ~SwitchLog();
 
     /// Begins to record. @param[in] processor number, 0, 1, ... @param[in] clock time line of the slices.
+    /// @param[in] page_max size of the buffer [pages]: a power of two, kPageMin or more.
     /// @return refused without the privilege (CAP_PERFMON, perf_event_paranoid) or without support of the
     /// host; the log then stays empty.
-    ports::posix_rt::Right open(int processor, const ports::posix_rt::FrameClock& clock) noexcept;
+    ports::posix_rt::Right open(int processor, const ports::posix_rt::FrameClock& clock,
+                                std::size_t page_max = kPageMax) noexcept;
     bool is_open() const noexcept { return ring_ != nullptr; }
 
     /// The calling thread runs the windows.
@@ -79,6 +83,8 @@ class SwitchLog final {
     /// Reads the next switches. @param[in] record_max records of Linux to read, about 30 ns and half a switch
     /// each; the next call reads the rest.
     void read(std::size_t record_max = std::numeric_limits<std::size_t>::max()) noexcept;
+    /// The slices of the last read(), in the order of their instants.
+    Span<const Slice> get_batch() const noexcept { return {batch_.slices.data(), batch_.count}; }
     /// Evaluates the slices of the last read(); time with lost switches, or whose switches have not been read
     /// yet, is not counted.
     /// @param[in] window_thread thread of the window; 0: unknown.
