@@ -15,10 +15,11 @@
 namespace mamori::ports::posix_rt::detail {
 namespace {
 
-/// More capabilities than any kernel knows; a number without one is refused, which is as well.
+/// More numbers than any kernel has capabilities. Linux rejects unused numbers, which is harmless.
 constexpr unsigned long kCapabilityEnd{64UL};
 
-/// Killed with the thread that has started it; the second half is for a thread that has ended already.
+/// Linux kills the process at the end of the thread that started it. The second check detects a thread that
+/// has already ended.
 bool tie_to_parent(const ChildPlan& plan) noexcept {
     return ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ::getppid() == plan.parent;
 }
@@ -42,7 +43,7 @@ bool lower_priority(const PartitionLimits& limits) noexcept {
     return ::sched_setscheduler(0, SCHED_OTHER, &none) == 0 && ::setpriority(PRIO_PROCESS, 0, niceness) == 0;
 }
 
-/// Never higher than it is.
+/// Never raises a limit.
 bool limit(__rlimit_resource_t resource, rlim_t value) noexcept {
     rlimit before{};
     if (::getrlimit(resource, &before) != 0) {
@@ -60,8 +61,8 @@ bool set_limits(const PartitionLimits& limits) noexcept {
            (limits.process_max == 0U || limit(RLIMIT_NPROC, limits.process_max));
 }
 
-/// From the next program on it has no capability and cannot get one. A process that may not give them up has
-/// none to give.
+/// Removes all capabilities of the program and the possibility to get new ones. A process without the
+/// privilege to remove them has none.
 bool drop_capabilities() noexcept {
     for (unsigned long capability = 0UL; capability < kCapabilityEnd; ++capability) {
         static_cast<void>(::prctl(PR_CAPBSET_DROP, capability, 0UL, 0UL, 0UL));
@@ -70,7 +71,7 @@ bool drop_capabilities() noexcept {
     return ::prctl(PR_SET_NO_NEW_PRIVS, 1UL, 0UL, 0UL, 0UL) == 0;
 }
 
-/// When memory runs out, this one goes. A system without the file decides for itself.
+/// Linux ends this process first when memory is exhausted. Without the file, Linux selects a process.
 void be_first_in_line() noexcept {
     constexpr char kScore[] = "1000";
     const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
@@ -80,14 +81,14 @@ void be_first_in_line() noexcept {
     }
 }
 
-/// By the system call itself: the functions of the library would change the threads of the safety process.
+/// Uses the system calls directly: the library functions would change all threads of the safety process.
 bool become(uid_t user) noexcept {
     return user == PartitionLimits::kSameUser ||
            (::syscall(SYS_setgroups, 0, nullptr) == 0 && ::syscall(SYS_setresgid, user, user, user) == 0 &&
             ::syscall(SYS_setresuid, user, user, user) == 0);
 }
 
-/// Nothing of what the safety process does with signals.
+/// Removes the signal settings of the safety process.
 void forget_signals() noexcept {
     for (int signal = 1; signal < NSIG; ++signal) {
         struct sigaction action{};
@@ -99,7 +100,8 @@ void forget_signals() noexcept {
     static_cast<void>(pthread_sigmask(SIG_SETMASK, &none, nullptr));
 }
 
-/// Sends the descriptor of this process to the safety process, before another thread can wait for its end.
+/// Sends the process descriptor of this process to the safety process, before another thread can wait for its
+/// end.
 bool introduce(const ChildPlan& plan) noexcept {
     const int self = static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0));
     if (self < 0) {
@@ -121,13 +123,14 @@ bool introduce(const ChildPlan& plan) noexcept {
     return ::sendmsg(plan.report, &message, 0) == static_cast<ssize_t>(sizeof(report));
 }
 
-/// A copy of `file` at `above` or higher, which no program inherits.
+/// Copies `file` to a number of at least `above`. Programs do not inherit the copy.
 int park(int file, int above) noexcept {
     return ::fcntl(file, F_DUPFD_CLOEXEC, above);
 }
 
-/// The streams and descriptors of the order, /dev/null and the socket; each has a place above all of them
-/// before it gets its own, since two may change places. @return the socket; -1: one is none.
+/// Assigns the numbers of /dev/null and of the streams and descriptors of the order, and moves the socket.
+/// First moves each descriptor above all target numbers, since two descriptors can exchange their numbers.
+/// @return the socket; -1: a descriptor is not open.
 int hand_over(const ChildPlan& plan) noexcept {
     const Span<const int> sources = plan.order.descriptors;
     const int count = static_cast<int>(sources.size());
@@ -157,7 +160,8 @@ int hand_over(const ChildPlan& plan) noexcept {
     return ::syscall(SYS_close_range, above, ~0U, 0U) == 0 ? report_place : -1;
 }
 
-/// All before the program. @return why it cannot come to that; `report` is the socket from then on.
+/// All steps before the start of the program. @return cause of a failure. @param[in,out] report number of the
+/// socket.
 PartitionError prepare(const ChildPlan& plan, int& report) noexcept {
     const PartitionLimits& limits = plan.order.limits;
     if (!introduce(plan)) {
@@ -181,7 +185,7 @@ PartitionError prepare(const ChildPlan& plan, int& report) noexcept {
     if (!become(limits.user)) {
         return PartitionError::kCannotBecome;
     }
-    // Last: whoever becomes another user loses the tie.
+    // Last step, because a change of the user clears the parent-death signal.
     return tie_to_parent(plan) ? PartitionError::kNone : PartitionError::kCannotRestrict;
 }
 
@@ -192,7 +196,7 @@ void become_partition(const ChildPlan& plan) noexcept {
     PartitionError error = prepare(plan, report);
     if (error == PartitionError::kNone) {
         forget_signals();
-        // The system takes the strings as they are and changes none.
+        // execve() does not change the strings.
         static_cast<void>(::execve(plan.order.program, const_cast<char* const*>(plan.arguments.data()),
                                    const_cast<char* const*>(plan.environment.data())));
         error = PartitionError::kCannotExecute;
