@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: window threads have the stack that was asked for and lock only this, and an overflow hits the guard.
-// Method: the work of a window asks the C library for its own stack; Linux states the locked memory; a
-// process overflows on purpose, also by a frame that is larger than a page.
+// Goal: window threads have the requested stack and lock only this, and an overflow hits the guard. Method:
+// the work of a window asks the C library for its own stack; Linux reports the locked memory; a process
+// overflows its stack deliberately, also by a stack frame that is larger than a page.
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sys/mman.h>
@@ -33,7 +33,7 @@ struct Stack {
     std::size_t guard{0U};
 };
 
-/// Of the calling thread. The C library counts the guard separately.
+/// Reads the stack of the calling thread. The C library counts the guard separately.
 Stack read_stack() {
     Stack stack;
     pthread_attr_t attributes;
@@ -181,7 +181,7 @@ TEST(LockedStackTest, FiftyWindowsLockLessThanTwentyMegabytes) {
 
 Stack stack_of_window;
 
-/// 0: the access was in the guard of the window's stack.
+/// Ends with status 0 if the access was in the guard of the window stack.
 [[noreturn]] void tell_where(int, siginfo_t* info, void*) {
     const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
     const std::uintptr_t lowest = stack_of_window.lowest;
