@@ -25,7 +25,7 @@ from mamori_tools.host.plans import build_plan
 from mamori_tools.host.process import read_tail
 from mamori_tools.host.project import ROOT, Project
 from mamori_tools.host.steps import Context, Step, all_passed, run_steps
-from mamori_tools.timing.baseline import Baseline, check_table, check_ratios, list_ratios, load_baseline, write_baseline
+from mamori_tools.timing.baseline import Baseline, check_ratios, check_table, list_ratios, load_baseline, write_baseline
 from mamori_tools.timing.environment import collect_setting, collect_state
 from mamori_tools.timing.reader import FILES, SWITCH_FILES, Measurement, read_measurement
 from mamori_tools.timing.report import NO_LIMITS, Limits, Report, make_record, make_report, write_record

@@ -139,3 +139,5 @@ def test_window_that_opens_several_times_in_a_frame_is_judged_by_opening(tmp_pat
 
     assert left["component reader"] == 40_000 - 510 * 2.0
     assert left["window sense"] == 250_000 - 2800 * 2.0
+
+

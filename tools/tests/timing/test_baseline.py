@@ -9,7 +9,7 @@ import pytest
 from timing_run import make_rows, make_run, make_table, write_run
 
 from mamori_tools.table.document import Table, read_table
-from mamori_tools.timing.baseline import check_table, check_ratios, load_baseline, make_fingerprint, write_baseline
+from mamori_tools.timing.baseline import check_ratios, check_table, load_baseline, make_fingerprint, write_baseline
 from mamori_trace.base.errors import InputError
 
 RATIOS = [("reader", 10.0), ('say "hi"\\\n', 2.0)]

@@ -372,7 +372,8 @@ def test_folder_is_built_and_run_with_its_arguments(project: Path, capsys: pytes
     ("text", "said"),
     [("program = 1", "has no 'program'"), ('program = "a"', "has no 'target'"), ('program = "../../x"\ntarget = "x"', "is outside the build folder"),
      ('programm = "a"', "unknown key 'programm'; nearest: program"),
-     ('program = "a\\u0000"\ntarget = "x"', "without NUL"), ('program = "a"\ntarget = "x"\narguments = ["\\u0000"]', "without NUL"), ("program", "invalid TOML"),
+     ('program = "a\\u0000"\ntarget = "x"', "without NUL"), ('program = "a"\ntarget = "x"\narguments = ["\\u0000"]', "without NUL"),
+     ("program", "invalid TOML"),
      ('program = "a"\ntarget = "b"\narguments = [1]', "must be a list of strings")],
 )  # fmt: skip
 def test_wrong_description_ends_before_the_build(project: Path, capsys: pytest.CaptureFixture[str], text: str, said: str) -> None:

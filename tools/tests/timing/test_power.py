@@ -104,7 +104,9 @@ def test_state_deeper_than_a_requested_latency_is_not_used(roots: Roots, limit_u
 
 
 @pytest.mark.verifies("SWR-TIM-062", technique="boundary_values")
-@pytest.mark.parametrize(("runtime", "period", "is_on"), [(0, 1, True), (999_999, 1_000_000, True), (1_000_000, 1_000_000, False), (-1, 1_000_000, False)])
+@pytest.mark.parametrize(
+    ("runtime", "period", "is_on"), [(0, 1, True), (999_999, 1_000_000, True), (1_000_000, 1_000_000, False), (-1, 1_000_000, False)]
+)
 def test_throttling_is_on_when_less_than_the_period_may_be_used(roots: Roots, runtime: int, period: int, is_on: bool) -> None:
     put_throttling(roots, runtime, period)
 
