@@ -53,7 +53,7 @@ class DescribeTest : public ::testing::Test {
     std::remove_const_t<decltype(kSound)> table_ = kSound;
 };
 
-TEST_F(DescribeTest, ATableThatKeepsEveryRuleHasNoFindings) {
+TEST_F(DescribeTest, ATableThatCompliesWithEveryRuleHasNoFindings) {
     verifies("SWR-TAB-003");
     EXPECT_EQ(describe_table(), Sentences{});
     EXPECT_EQ(describe({}, make_view(table_)), "the table keeps every rule");
@@ -126,7 +126,7 @@ TEST_F(DescribeTest, OverlappingWindowsAreBothNamed) {
     EXPECT_EQ(describe_table(), Sentences{"window 'plan': it overlaps window 'sense' on core 0"});
 }
 
-TEST_F(DescribeTest, WindowsOfOneNameAreToldApartByTheirRows) {
+TEST_F(DescribeTest, WindowsWithEqualNamesAreDistinguishedByTheirRows) {
     verifies("SWR-TAB-003");
     table_.windows[1].name = "sense";
     EXPECT_EQ(describe_table(), Sentences{"window 'sense': row 1 has the name of row 0"});
@@ -163,7 +163,7 @@ TEST_F(DescribeTest, RatesAreComparedWithTheOpenings) {
                    "window 'sense': a slower period is no whole multiple of its period of 1 ms: 1500 us"}));
 }
 
-TEST_F(DescribeTest, AComponentInTwoPlacesIsNamedWithBothWindows) {
+TEST_F(DescribeTest, AComponentInTwoWindowsIsNamedWithBoth) {
     verifies("SWR-TAB-003");
     const auto table = system(frame(1_ms), window("sense", 0_us, 1_us, budget(1_us), run(g_encoder)),
                               window("plan", 1_us, 1_us, budget(1_us), run(g_encoder)));
@@ -181,7 +181,7 @@ TEST_F(DescribeTest, ConnectionsAndInputsAreNamedByComponentAndPort) {
                          "input 'planner.in' is mandatory and nothing feeds it"}));
 }
 
-TEST_F(DescribeTest, AConnectionOfAStrangerIsNamedAsFarAsItIsKnown) {
+TEST_F(DescribeTest, AConnectionOfAnUnknownComponentIsNamedByItsKnownParts) {
     verifies("SWR-TAB-003");
     const auto table = system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_monitor)),
                               connect(g_second_encoder.out, g_monitor.in, any_age()));
@@ -190,7 +190,7 @@ TEST_F(DescribeTest, AConnectionOfAStrangerIsNamedAsFarAsItIsKnown) {
                         "that a window runs"});
 }
 
-TEST_F(DescribeTest, CrossingsAreNamedByTheirConnections) {
+TEST_F(DescribeTest, InterCoreBuffersAreNamedByTheirConnections) {
     verifies("SWR-TAB-003");
     table_.connections[0].crossing = &g_crossing;
     table_.connections[1].operations = table_.connections[0].operations;
@@ -211,7 +211,7 @@ TEST_F(DescribeTest, FaultsAndReactionsAreNamedByTheirNumbers) {
     EXPECT_EQ(describe_table()[0], "fault 0 has more than one reaction");
 }
 
-TEST_F(DescribeTest, RowsThatPointNowhereAreDescribedToo) {
+TEST_F(DescribeTest, RowsWithInvalidIndicesAreDescribedToo) {
     verifies("SWR-TAB-003", Technique::kErrorGuessing, Polarity::kViolation);
     table_.windows[0].name = nullptr;
     table_.windows[1].component_count = std::numeric_limits<std::size_t>::max();
