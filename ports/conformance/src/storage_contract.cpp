@@ -54,7 +54,7 @@ void write_spare(Span<std::byte> region) {
     }
 }
 
-void write_foreign(Span<std::byte> region) {
+void write_unexpected(Span<std::byte> region) {
     std::fill(region.begin(), region.end(), std::byte{0xA5U});
 }
 
@@ -136,8 +136,8 @@ class StorageSubject final {
     }
 
     /// Unexpected content is unchanged, and formatted only on request.
-    void find_foreign(Judge& judge) {
-        write(&write_foreign, judge);
+    void reject_unexpected(Judge& judge) {
+        write(&write_unexpected, judge);
         FlightRecorder recorder;
         judge.expect(recorder.open(rig_->get_region()) == Status::kError, "unexpected content was opened");
         compare(judge);
@@ -209,7 +209,7 @@ Rules<StorageSubject> make_rules() {
         make_crash("crash after a record", &write_records),
         make_crash("crash during a record", &write_torn),
         {"unexpected content", kRequirement, is_open,
-         [](StorageSubject& subject, Judge& judge) { subject.find_foreign(judge); }},
+         [](StorageSubject& subject, Judge& judge) { subject.reject_unexpected(judge); }},
     };
 }
 

@@ -36,7 +36,7 @@ void wait_for(const std::atomic<pid_t>& other, pid_t self) noexcept {
     }
 }
 
-void hold_back(const AssertionRecord&) noexcept {
+void wait_for_first_failure(const AssertionRecord&) noexcept {
     const pid_t self = get_self();
     wait_for(dying_thread, self);
     pid_t first = 0;
@@ -50,7 +50,7 @@ void hold_back(const AssertionRecord&) noexcept {
 }  // namespace
 
 void install_failure_gate() noexcept {
-    set_assertion_gate(&hold_back);
+    set_assertion_gate(&wait_for_first_failure);
 }
 
 bool begin_crash() noexcept {

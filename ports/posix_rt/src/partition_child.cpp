@@ -72,7 +72,7 @@ bool drop_capabilities() noexcept {
 }
 
 /// Linux ends this process first when memory is exhausted. Without the file, Linux selects a process.
-void be_first_in_line() noexcept {
+void prefer_for_memory_kill() noexcept {
     constexpr char kScore[] = "1000";
     const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
     if (file >= 0) {
@@ -89,7 +89,7 @@ bool become(uid_t user) noexcept {
 }
 
 /// Removes the signal settings of the safety process.
-void forget_signals() noexcept {
+void reset_signals() noexcept {
     for (int signal = 1; signal < NSIG; ++signal) {
         struct sigaction action{};
         action.sa_handler = SIG_DFL;
@@ -102,7 +102,7 @@ void forget_signals() noexcept {
 
 /// Sends the process descriptor of this process to the safety process, before another thread can wait for its
 /// end.
-bool introduce(const ChildPlan& plan) noexcept {
+bool send_descriptor(const ChildPlan& plan) noexcept {
     const int self = static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0));
     if (self < 0) {
         return false;
@@ -124,36 +124,35 @@ bool introduce(const ChildPlan& plan) noexcept {
 }
 
 /// Copies `file` to a number of at least `above`. Programs do not inherit the copy.
-int park(int file, int above) noexcept {
+int copy_above(int file, int above) noexcept {
     return ::fcntl(file, F_DUPFD_CLOEXEC, above);
 }
 
 /// Assigns the numbers of /dev/null and of the streams and descriptors of the order, and moves the socket.
 /// First moves each descriptor above all target numbers, since two descriptors can exchange their numbers.
 /// @return the socket; -1: a descriptor is not open.
-int hand_over(const ChildPlan& plan) noexcept {
+int assign_descriptors(const ChildPlan& plan) noexcept {
     const Span<const int> sources = plan.order.descriptors;
     const int count = static_cast<int>(sources.size());
     const int report_place = kFirstPartitionDescriptor + count;
     const int above = report_place + 1;
-    std::array<int, PartitionOrder::kDescriptorMax> parked{};
+    std::array<int, PartitionOrder::kDescriptorMax> copies{};
     for (std::size_t i = 0U; i < sources.size(); ++i) {
-        parked[i] = park(sources[i], above);
-        if (parked[i] < 0) {
+        copies[i] = copy_above(sources[i], above);
+        if (copies[i] < 0) {
             return -1;
         }
     }
-    const int parked_report = park(plan.report, above);
-    const int nothing = park(::open("/dev/null", O_RDWR | O_CLOEXEC), above);
-    const int output = plan.order.output == kNoStream ? nothing : park(plan.order.output, above);
-    const int errors = plan.order.errors == kNoStream ? nothing : park(plan.order.errors, above);
-    if (parked_report < 0 || nothing < 0 || output < 0 || errors < 0 || ::dup2(nothing, 0) < 0 ||
-        ::dup2(output, 1) < 0 || ::dup2(errors, 2) < 0 ||
-        ::dup3(parked_report, report_place, O_CLOEXEC) < 0) {
+    const int report_copy = copy_above(plan.report, above);
+    const int nothing = copy_above(::open("/dev/null", O_RDWR | O_CLOEXEC), above);
+    const int output = plan.order.output == kNoStream ? nothing : copy_above(plan.order.output, above);
+    const int errors = plan.order.errors == kNoStream ? nothing : copy_above(plan.order.errors, above);
+    if (report_copy < 0 || nothing < 0 || output < 0 || errors < 0 || ::dup2(nothing, 0) < 0 ||
+        ::dup2(output, 1) < 0 || ::dup2(errors, 2) < 0 || ::dup3(report_copy, report_place, O_CLOEXEC) < 0) {
         return -1;
     }
     for (int i = 0; i < count; ++i) {
-        if (::dup2(parked[static_cast<std::size_t>(i)], kFirstPartitionDescriptor + i) < 0) {
+        if (::dup2(copies[static_cast<std::size_t>(i)], kFirstPartitionDescriptor + i) < 0) {
             return -1;
         }
     }
@@ -164,7 +163,7 @@ int hand_over(const ChildPlan& plan) noexcept {
 /// socket.
 PartitionError prepare(const ChildPlan& plan, int& report) noexcept {
     const PartitionLimits& limits = plan.order.limits;
-    if (!introduce(plan)) {
+    if (!send_descriptor(plan)) {
         return PartitionError::kCannotWatch;
     }
     if (::setsid() < 0 || !lower_priority(limits)) {
@@ -173,12 +172,12 @@ PartitionError prepare(const ChildPlan& plan, int& report) noexcept {
     if (!take_place(limits)) {
         return PartitionError::kCannotPlace;
     }
-    be_first_in_line();
-    const int handed = hand_over(plan);
-    if (handed < 0) {
+    prefer_for_memory_kill();
+    const int assigned = assign_descriptors(plan);
+    if (assigned < 0) {
         return PartitionError::kCannotHandOver;
     }
-    report = handed;
+    report = assigned;
     if (!drop_capabilities() || !set_limits(limits)) {
         return PartitionError::kCannotRestrict;
     }
@@ -195,7 +194,7 @@ void become_partition(const ChildPlan& plan) noexcept {
     int report = plan.report;
     PartitionError error = prepare(plan, report);
     if (error == PartitionError::kNone) {
-        forget_signals();
+        reset_signals();
         // execve() does not change the strings.
         static_cast<void>(::execve(plan.order.program, const_cast<char* const*>(plan.arguments.data()),
                                    const_cast<char* const*>(plan.environment.data())));

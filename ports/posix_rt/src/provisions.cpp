@@ -42,7 +42,7 @@ Result<std::uint64_t> find_figure(const Page& page, const char* name) noexcept {
     return digits == 0U ? Result<std::uint64_t>{Status::kUnsupported} : Result<std::uint64_t>{figure};
 }
 
-Status judge_memory(const Page& page, std::uint64_t unlockable) noexcept {
+Status check_memory(const Page& page, std::uint64_t unlockable) noexcept {
     const Result<std::uint64_t> mapped = find_figure(page, "\nVmSize:");
     const Result<std::uint64_t> locked = find_figure(page, "\nVmLck:");
     const Result<std::uint64_t> swapped = find_figure(page, "\nVmSwap:");
@@ -87,7 +87,7 @@ Status MemoryLocked::look() noexcept {
     for (int look = 0; look < kLooks && status != Status::kOk; ++look) {
         Page page{};
         const bool is_read = ::pread(file_, page.data(), page.size() - 1U, 0) > 0;
-        status = is_read ? judge_memory(page, unlockable_) : Status::kUnsupported;
+        status = is_read ? check_memory(page, unlockable_) : Status::kUnsupported;
     }
     return status;
 }

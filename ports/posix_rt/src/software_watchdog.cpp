@@ -76,7 +76,7 @@ Status SoftwareWatchdog::close() noexcept {
 }
 
 /// Evaluates the state at instant `now`.
-WatchdogCause SoftwareWatchdog::judge(std::int64_t state, Instant now) const noexcept {
+WatchdogCause SoftwareWatchdog::evaluate(std::int64_t state, Instant now) const noexcept {
     if (has_expired_in(state)) {
         return static_cast<WatchdogCause>(state - kExpired);
     }
@@ -88,7 +88,7 @@ WatchdogCause SoftwareWatchdog::judge(std::int64_t state, Instant now) const noe
 Status SoftwareWatchdog::service(Instant) noexcept {
     const Instant now = clock_.get_now();
     std::int64_t state = state_.load(std::memory_order_acquire);
-    WatchdogCause cause = judge(state, now);
+    WatchdogCause cause = evaluate(state, now);
     if (state == kClosed || has_expired_in(state)) {
         return Status::kError;
     }
@@ -119,12 +119,12 @@ WatchdogCause SoftwareWatchdog::get_cause() const noexcept {
     // Reads the state first: otherwise, a service after the reading of the clock would seem to be in the
     // future.
     const std::int64_t state = state_.load(std::memory_order_acquire);
-    return judge(state, clock_.get_now());
+    return evaluate(state, clock_.get_now());
 }
 
 bool SoftwareWatchdog::is_watching() const noexcept {
     const std::int64_t state = state_.load(std::memory_order_acquire);
-    return state != kClosed && state != kSilent && judge(state, clock_.get_now()) == WatchdogCause::kNone;
+    return state != kClosed && state != kSilent && evaluate(state, clock_.get_now()) == WatchdogCause::kNone;
 }
 
 void SoftwareWatchdog::watch() noexcept {
@@ -151,7 +151,7 @@ void SoftwareWatchdog::watch_until_expired() noexcept {
         // This order ensures that the last reading of the clock is after the call of close().
         const bool is_ending = is_ending_.load(std::memory_order_acquire);
         const Instant now = clock_.get_now();
-        WatchdogCause cause = judge(state, now);
+        WatchdogCause cause = evaluate(state, now);
         if (cause == WatchdogCause::kNone && is_ending) {
             return;
         }

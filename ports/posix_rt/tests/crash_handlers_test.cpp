@@ -85,7 +85,7 @@ struct Child {
         shared.first = recorder.get_next_sequence();
     }
 
-    [[noreturn]] void write_for_ever(Shared& shared) {
+    [[noreturn]] void write_until_killed(Shared& shared) {
         for (;;) {
             const std::uint64_t sequence = recorder.get_next_sequence();
             recorder.write(Instant{1}, Severity::kInfo, 1U, 2U, calc_argument(sequence));
@@ -248,7 +248,7 @@ TEST_P(CrashCaseTest, IsRecordedAndLosesNoRecordWhileAnotherThreadWrites) {
         SCOPED_TRACE("round " + std::to_string(round));
         const int spins = std::uniform_int_distribution<int>{0, 300'000}(generator);
         const int status = run([&](Child& self) {
-            std::thread guilty{[&] {
+            std::thread faulty{[&] {
                 CrashStack stack;
                 static_cast<void>(stack.take());
                 set_crash_place(3U, 7U);
@@ -256,7 +256,7 @@ TEST_P(CrashCaseTest, IsRecordedAndLosesNoRecordWhileAnotherThreadWrites) {
                 GetParam().crash(*shared_);
                 ::_exit(4);
             }};
-            self.write_for_ever(*shared_);
+            self.write_until_killed(*shared_);
         });
 
         expect_killed_by(status, GetParam().signal);
@@ -299,7 +299,7 @@ TEST_F(CrashHandlersTest, CrashDuringAWriteOfTheRecorderCorruptsAtMostThatRecord
     for (std::uint32_t round = 1U; round <= kRounds && !HasFailure(); ++round) {
         SCOPED_TRACE("round " + std::to_string(round));
         const int signal = kCrashSignals[round % kCrashSignals.size()];
-        const int status = run([&](Child& self) { self.write_for_ever(*shared_); },
+        const int status = run([&](Child& self) { self.write_until_killed(*shared_); },
                                [&](pid_t child) {
                                    const int spins =
                                        std::uniform_int_distribution<int>{0, 100'000}(generator);
@@ -389,7 +389,7 @@ TEST_F(CrashHandlersTest, WatchdogThatEndsTheProcessIsRecordedAsCause) {
     const int status = run([this](Child& self) {
         SoftwareWatchdog watchdog{self.clock, {0_ms, 2_ms}, {&Shared::close_outputs, shared_, true}};
         if (watchdog.open({}) == Status::kOk && watchdog.service(self.clock.get_now()) == Status::kOk) {
-            self.write_for_ever(*shared_);
+            self.write_until_killed(*shared_);
         }
     });
 

@@ -55,7 +55,7 @@ constexpr std::uint64_t kBurst = 50U;
 
 /// Writes records until it is killed. After the write of the last record of a burst, reports its number
 /// through the pipe.
-[[noreturn]] void write_for_ever(const char* path, std::size_t size, int report) {
+[[noreturn]] void write_until_killed(const char* path, std::size_t size, int report) {
     MappedFile file;
     FlightRecorder recorder;
     if (file.open(path, size) != Status::kOk || recorder.open(file.get_region()) != Status::kOk) {
@@ -78,7 +78,7 @@ std::uint64_t run_and_kill(const std::string& path, std::size_t size, std::mt199
     EXPECT_EQ(::pipe(ends.data()), 0);
     const pid_t child = ::fork();
     if (child == 0) {
-        write_for_ever(path.c_str(), size, ends[1]);
+        write_until_killed(path.c_str(), size, ends[1]);
     }
     static_cast<void>(::close(ends[1]));
     int reports = std::uniform_int_distribution<int>{1, 200}(generator);

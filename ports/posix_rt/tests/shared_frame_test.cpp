@@ -294,7 +294,7 @@ TEST_F(SharedFrameTest, WordsThatChangeDuringTheReadAreHarmless) {
 }
 
 /// Writes until it is killed.
-[[noreturn]] void write_for_ever(std::byte* memory) {
+[[noreturn]] void write_until_killed(std::byte* memory) {
     FrameWriter writer;
     if (writer.open({memory, kSize}, kCapacity) != Status::kOk) {
         ::_exit(1);
@@ -324,7 +324,7 @@ TEST_F(SharedFrameTest, AWriterKilledAtRandomInstantsLeavesIntactMessages) {
     for (int round = 0; round < 60; ++round) {
         const pid_t child = ::fork();
         if (child == 0) {
-            write_for_ever(static_cast<std::byte*>(shared));
+            write_until_killed(static_cast<std::byte*>(shared));
         }
         const auto spins = static_cast<std::size_t>(random() % 4000U);
         for (std::size_t seen = 0U; seen <= spins;) {

@@ -146,7 +146,7 @@ def _draw_histogram(axis: Any, row: Row) -> None:
     _set_time_axis(axis, low, high)
     axis.set_title(f"{make_printable(shorten(row.title, TITLE_LENGTH))}   (n = {len(row.values)})", fontsize=9.5, color=INK,
                    loc="left", parse_math=False)  # fmt: skip
-    axis.set_ylabel("openings", fontsize=8.5)
+    axis.set_ylabel("window instances", fontsize=8.5)
     axis.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axis.locator_params(axis="y", nbins=4)
 

@@ -253,7 +253,7 @@ TEST(WriteModesTest, SetsWithInvalidIndicesAreWrittenAndNamed) {
                                           "configuration set 'slow': row 1" + invalid + "0" + rule,
                                           "configuration set 'slow': row 1" + invalid + "1" + rule}));
     EXPECT_EQ(describe({Rule::kConfigurationRefused, 0U, 0U}, make_view(table)).substr(0U, 38U),
-              "configuration set '?' cannot be judged");
+              "configuration set '?' cannot be checked");
 }
 
 TEST(WriteModesTest, InvalidRowsAreReportedFirstAndTogether) {

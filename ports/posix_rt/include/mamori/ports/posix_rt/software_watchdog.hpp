@@ -97,7 +97,7 @@ class SoftwareWatchdog final : public safety::Watchdog {
     static void* serve(void* argument) noexcept;
     void watch() noexcept;
     void watch_until_expired() noexcept;
-    WatchdogCause judge(std::int64_t state, Instant now) const noexcept;
+    WatchdogCause evaluate(std::int64_t state, Instant now) const noexcept;
     bool is_device_lost(Instant now) noexcept;
     void wait_for_change(std::int64_t state) noexcept;
     bool has_expired_in(std::int64_t state) const noexcept { return state > kExpired; }
