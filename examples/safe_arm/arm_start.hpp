@@ -26,7 +26,7 @@ std::string load_inputs(const std::string& model_path, const std::string& motion
                         mamori::sim::LoadedModel& loaded, MotionTrack& track);
 
 /// @return the reason if `fault`, whose instant counts from the start of the motion, cannot be injected
-/// during the motion of `track`; otherwise empty.
+///         during the motion of `track`; otherwise empty.
 std::string check_fault_instant(const mamori::sim::FaultPlan& fault, const MotionTrack& track);
 
 /// Configures the components, initialises and starts the executive, and starts its supervision.

@@ -21,7 +21,7 @@ void install_failure_gate() noexcept;
 
 /// Called when the calling thread has received a crash signal. Async-signal-safe.
 /// @return true: this thread must close the outputs; false: another thread closes them and had
-/// kFailurePatience for this, or the calling thread crashed again in its own handler.
+///         kFailurePatience for this, or the calling thread crashed again in its own handler.
 bool begin_crash() noexcept;
 /// Called when the outputs are closed. Returns when no other thread handles a failed check, or after
 /// kFailurePatience. Async-signal-safe.

@@ -159,8 +159,9 @@ int assign_descriptors(const ChildPlan& plan) noexcept {
     return ::syscall(SYS_close_range, above, ~0U, 0U) == 0 ? report_place : -1;
 }
 
-/// All steps before the start of the program. @return cause of a failure. @param[in,out] report number of the
-/// socket.
+/// All steps before the start of the program.
+/// @return cause of a failure.
+/// @param[in,out] report number of the socket.
 PartitionError prepare(const ChildPlan& plan, int& report) noexcept {
     const PartitionLimits& limits = plan.order.limits;
     if (!send_descriptor(plan)) {

@@ -89,8 +89,9 @@ pid_t spawn(const ChildPlan& plan) noexcept {
 // NOLINTEND(clang-analyzer-unix.Vfork)
 // NOLINTEND(bugprone-unsafe-functions,cert-msc24-c,cert-msc33-c,clang-analyzer-security.insecureAPI.vfork)
 
-/// Waits for the next message of the child. @param[in,out] watch set to the process descriptor if the message
-/// contains it. @return false: the socket was closed without a message.
+/// Waits for the next message of the child.
+/// @param[in,out] watch set to the process descriptor if the message contains it.
+/// @return false: the socket was closed without a message.
 bool receive(int socket, ChildReport& report, int& watch) noexcept {
     iovec content{&report, sizeof(report)};
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(watch))> control{};
@@ -110,8 +111,8 @@ bool receive(int socket, ChildReport& report, int& watch) noexcept {
     return length == static_cast<ssize_t>(sizeof(report));
 }
 
-/// @param[in] options as for waitid(), without WEXITED. @return false: not a child of this process, or still
-///            running (with WNOHANG).
+/// @param[in] options as for waitid(), without WEXITED.
+/// @return false: not a child of this process, or still running (with WNOHANG).
 bool wait_for(idtype_t kind, id_t child, int options, siginfo_t& end) noexcept {
     int result = -1;
     do {

@@ -109,8 +109,9 @@ class CrashHandlersTest : public ::testing::Test {
         std::filesystem::remove(path_);
     }
 
-    /// @param[in] act runs in the child, which ends with status 3 if `act` returns. @param[in] disturb runs
-    /// in the parent meanwhile. @return exit status of the child.
+    /// @param[in] act runs in the child, which ends with status 3 if `act` returns.
+    /// @param[in] disturb runs in the parent meanwhile.
+    /// @return exit status of the child.
     int run(const std::function<void(Child&)>& act, const std::function<void(pid_t)>& disturb = {},
             void (*close)(void*) noexcept = &Shared::close_outputs) {
         shared_->closings = 0;

@@ -30,8 +30,8 @@ class ClockRig {
     virtual bool is_exact() const = 0;
 };
 
-/// @param[in] make_rig returns a new port on each call. @return the trials for the runners of
-/// rule_runner.hpp.
+/// @param[in] make_rig returns a new port on each call.
+/// @return the trials for the runners of rule_runner.hpp.
 TrialFactory make_clock_trials(RigFactory<ClockRig> make_rig);
 
 }  // namespace mamori::ports::conformance

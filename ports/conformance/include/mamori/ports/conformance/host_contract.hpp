@@ -48,8 +48,8 @@ class HostRig : public ClockRig {
     virtual void release(std::size_t window) noexcept = 0;
 };
 
-/// @param[in] make_rig returns a new port on each call. @return the trials for the runners of
-/// rule_runner.hpp.
+/// @param[in] make_rig returns a new port on each call.
+/// @return the trials for the runners of rule_runner.hpp.
 TrialFactory make_host_trials(RigFactory<HostRig> make_rig);
 
 }  // namespace mamori::ports::conformance

@@ -39,8 +39,8 @@ class StorageRig {
     virtual void crash(std::size_t size, const std::function<void(Span<std::byte>)>& write) = 0;
 };
 
-/// @param[in] make_rig returns a new port on each call. @return the trials for the runners of
-/// rule_runner.hpp.
+/// @param[in] make_rig returns a new port on each call.
+/// @return the trials for the runners of rule_runner.hpp.
 TrialFactory make_storage_trials(RigFactory<StorageRig> make_rig);
 
 }  // namespace mamori::ports::conformance

@@ -56,8 +56,8 @@ class TimerRig {
 /// Makes a new port for an initialised and started executive, which must outlive the port.
 using TimerRigFactory = std::function<std::unique_ptr<TimerRig>(Executive&)>;
 
-/// @param[in] make_rig returns a new port on each call; its major frames last 8 ms. @return the trials for
-///            the runners of rule_runner.hpp.
+/// @param[in] make_rig returns a new port on each call; its major frames last 8 ms.
+/// @return the trials for the runners of rule_runner.hpp.
 TrialFactory make_timer_trials(TimerRigFactory make_rig);
 
 }  // namespace mamori::ports::conformance

@@ -33,8 +33,8 @@ class WatchdogRig {
     virtual bool has_expired() = 0;
 };
 
-/// @param[in] make_rig returns a new port on each call. @return the trials for the runners of
-/// rule_runner.hpp.
+/// @param[in] make_rig returns a new port on each call.
+/// @return the trials for the runners of rule_runner.hpp.
 TrialFactory make_watchdog_trials(RigFactory<WatchdogRig> make_rig);
 
 }  // namespace mamori::ports::conformance

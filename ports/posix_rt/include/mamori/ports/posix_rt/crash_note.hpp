@@ -44,8 +44,9 @@ enum class CrashNoteState : std::uint8_t {
 constexpr std::size_t calc_recorder_file_size(std::size_t capacity) noexcept {
     return flight::calc_region_size(capacity) + kCrashNoteSize;
 }
-/// Part of the file that the recorder uses. @param[in] file at least kCrashNoteSize bytes; a smaller file is
-/// a contract violation, also in the functions below.
+/// Part of the file that the recorder uses.
+/// @param[in] file at least kCrashNoteSize bytes; a smaller file is a contract violation, also in the
+///            functions below.
 inline Span<std::byte> get_recorder_region(Span<std::byte> file) noexcept {
     MAMORI_REQUIRE(1, file.size() >= kCrashNoteSize);
     return file.subspan(0U, file.size() - kCrashNoteSize);

@@ -21,8 +21,9 @@ struct CrashPlace {
     std::uint16_t component{kNone};
 };
 
-/// Sets the values of the calling thread. One store. @param[in] window, component indices in the system
-/// table; an index that is too large for a crash record is recorded as kNone.
+/// Sets the values of the calling thread. One store.
+/// @param[in] window, component indices in the system table; an index that is too large for a crash record is
+///            recorded as kNone.
 void set_crash_place(std::size_t window, std::size_t component) noexcept;
 /// Records that the calling thread runs no step.
 void clear_crash_place() noexcept;

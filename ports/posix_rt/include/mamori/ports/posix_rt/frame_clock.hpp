@@ -35,11 +35,13 @@ constexpr Instant add_saturating(Instant a, Duration b) noexcept {
 class FrameClock final {
   public:
     /// @param[in] lead time from now to the epoch, >= 0, so that the threads are ready for their first
-    /// window; the epoch saturates at the end of the range of the source. @param[in] source underlying clock,
-    /// must outlive this object; clocks other than the Linux clock are for tests.
+    /// window; the epoch saturates at the end of the range of the source.
+    /// @param[in] source underlying clock, must outlive this object; clocks other than the Linux clock are
+    ///            for tests.
     static FrameClock starting_in(Duration lead, const TimeSource& source = get_monotonic_clock()) noexcept;
-    /// The time line of another clock of this computer, for example in another process. @param[in] epoch_ns
-    /// get_epoch_ns() of that clock. Both clocks must use the Linux clock as their source.
+    /// The time line of another clock of this computer, for example in another process.
+    /// @param[in] epoch_ns get_epoch_ns() of that clock. Both clocks must use the Linux clock as their
+    ///            source.
     static FrameClock at_epoch(std::int64_t epoch_ns) noexcept { return {get_monotonic_clock(), epoch_ns}; }
 
     /// Reading of the source at instant 0 [ns]. The source is CLOCK_MONOTONIC unless it was replaced.

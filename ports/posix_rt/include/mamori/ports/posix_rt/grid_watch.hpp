@@ -128,8 +128,8 @@ struct OutputGate {
 class GridWatch final {
   public:
     /// @param[in] beats one per core; must outlive it. @param[in] clock of the frames; must outlive it.
-    /// @param[in] reference clock with the correct rate; must outlive it. @param[in] gate `close` not
-    /// nullptr.
+    /// @param[in] reference clock with the correct rate; must outlive it.
+    /// @param[in] gate `close` not nullptr.
     /// @param[in] place priority above that of the runners; preferably a separate processor.
     GridWatch(Span<const GridBeat> beats, const FrameClock& clock, const ClockReading& reference,
               const GridLimits& limits, const OutputGate& gate, ThreadPlace place) noexcept;

@@ -112,12 +112,12 @@ class PartitionProcess final {
     /// Queries whether the process still runs. When it has ended, kills the other processes of its group.
     PartitionState check() noexcept;
 
-    /// Kills the process and its group. check() reports when the process has ended. @return kOk;
-    /// kPreconditionNotMet (no process is running).
+    /// Kills the process and its group. check() reports when the process has ended.
+    /// @return kOk; kPreconditionNotMet (no process is running).
     Status end() noexcept;
 
-    /// Sends a signal to the process, never to another process that reuses its id. @param[in] signal as for
-    /// kill().
+    /// Sends a signal to the process, never to another process that reuses its id.
+    /// @param[in] signal as for kill().
     /// @return kOk; kPreconditionNotMet (no process is running, or it has just ended); kBadParameter (invalid
     ///         signal); kError (permission to signal its user missing).
     Status send_signal(int signal) noexcept;

@@ -26,7 +26,7 @@ namespace mamori::ports::posix_rt {
 class LinuxProvision : public safety::Provision {
   public:
     /// @return kOk (in effect); kPreconditionNotMet (not in effect); kUnsupported (the system does not report
-    /// it).
+    ///         it).
     virtual Status look() noexcept = 0;
     bool is_in_effect() noexcept final { return look() == Status::kOk; }
 
@@ -51,8 +51,8 @@ class MemoryLocked final : public LinuxProvision {
     MemoryLocked& operator=(const MemoryLocked&) = delete;
     ~MemoryLocked();
 
-    /// Call it before the windows run. @return kOk; kPreconditionNotMet (open already); kUnsupported (no
-    /// /proc).
+    /// Call it before the windows run.
+    /// @return kOk; kPreconditionNotMet (open already); kUnsupported (no /proc).
     Status open() noexcept;
 
     /// In effect if all mapped memory except `unlockable` is locked, and no page is swapped out.

@@ -23,8 +23,8 @@ struct Right {
     int system_error{0};
 };
 
-/// Combines two privileges that are required together. @return granted if both are granted, else the first
-/// denial.
+/// Combines two privileges that are required together.
+/// @return granted if both are granted, else the first denial.
 constexpr Right combine(const Right& first, const Right& second) noexcept {
     return first.is_granted ? second : first;
 }
@@ -76,9 +76,10 @@ struct ThreadRights {
 Status start_thread(pthread_t& thread, void* (*run)(void*), void* argument, ThreadPlace place,
                     ThreadRights& rights) noexcept;
 
-/// Binds a thread to one processor. @return denied if the processor does not exist or is not permitted for
-/// this process (EINVAL); granted for kAnyProcessor, which changes nothing: a new thread has the processors
-/// of the thread that started it.
+/// Binds a thread to one processor.
+/// @return denied if the processor does not exist or is not permitted for this process (EINVAL); granted for
+///         kAnyProcessor, which changes nothing: a new thread has the processors of the thread that started
+///         it.
 Right set_processor(pthread_t thread, int processor) noexcept;
 
 /// Locks all current and future memory of the process and touches `stack_size` bytes of the stack of the
@@ -86,7 +87,7 @@ Right set_processor(pthread_t thread, int processor) noexcept;
 /// @param[in] stack_size [byte] at most 1 MiB is touched, and never more than the stack of the caller has
 /// left.
 /// @return denied (EPERM, ENOMEM) if the limit permits less than this memory plus 64 MiB for stacks of later
-/// threads; then nothing is locked.
+///         threads; then nothing is locked.
 Right lock_memory(std::size_t stack_size) noexcept;
 
 }  // namespace mamori::ports::posix_rt

@@ -35,8 +35,8 @@ constexpr std::size_t calc_slot_words(std::size_t capacity) noexcept {
 /// Maximum capacity of a message [byte].
 inline constexpr std::size_t kFrameCapacityMax{1U << 20U};
 
-/// Size of the memory for messages of up to `capacity` bytes [byte]. @param[in] capacity 1 ..
-/// kFrameCapacityMax.
+/// Size of the memory for messages of up to `capacity` bytes [byte].
+/// @param[in] capacity 1 .. kFrameCapacityMax.
 constexpr std::size_t calc_frame_region_size(std::size_t capacity) noexcept {
     return sizeof(detail::FrameWord) * (1U + detail::kFrameSlots * detail::calc_slot_words(capacity));
 }
@@ -69,8 +69,8 @@ class FrameWriter final {
 
     /// Continues with the number after that of the last message in the memory, so that a reader detects the
     /// next message as new.
-    /// @param[in] region zeros, or data of an earlier writer; must outlive the writer. @param[in] capacity
-    /// maximum content [byte], 1 .. kFrameCapacityMax; same value as for the reader.
+    /// @param[in] region zeros, or data of an earlier writer; must outlive the writer.
+    /// @param[in] capacity maximum content [byte], 1 .. kFrameCapacityMax; same value as for the reader.
     /// @return kOk; kBadParameter (capacity, or a region that is too small or not at a multiple of 8).
     Status open(Span<std::byte> region, std::size_t capacity) noexcept;
 

@@ -47,8 +47,9 @@ class SharedMemory final {
 
     /// Creates zero-filled memory of a permanently fixed size.
     /// @param[in] name name in the list of mappings of the process, not nullptr; need not be unique.
-    /// @param[in] size [byte], from 1. @param[in] access kRead: only the adopting process can write; this
-    /// process cannot. kWrite: only this process can write.
+    /// @param[in] size [byte], from 1.
+    /// @param[in] access kRead: only the adopting process can write; this process cannot. kWrite: only this
+    ///            process can write.
     /// @return kOk; kBadParameter (name or size); kPreconditionNotMet (open already); kOutOfResources
     ///         (kCannotReserve, kCannotMap); kError (every other cause). get_error() and get_system_error()
     ///         return the cause.

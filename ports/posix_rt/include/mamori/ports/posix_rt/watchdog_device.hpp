@@ -60,8 +60,8 @@ class WatchdogDevice final : public safety::Watchdog {
 
     /// Opens and **starts** the device: it must be serviced from now on. If open() fails, it stops the device
     /// again. If the driver does not permit a stop, the device then resets the computer.
-    /// @param[in] path path of the device, not nullptr. @param[in] timeout maximum time without a service, at
-    ///            least 1 s; rounded down to seconds.
+    /// @param[in] path path of the device, not nullptr.
+    /// @param[in] timeout maximum time without a service, at least 1 s; rounded down to seconds.
     /// @return kOk; kBadParameter (path or timeout); kPreconditionNotMet (open already); kError (every other
     ///         cause). get_error() and get_system_error() return the cause.
     Status open(const char* path, Duration timeout) noexcept;
