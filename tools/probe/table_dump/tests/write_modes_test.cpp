@@ -252,7 +252,7 @@ TEST(WriteModesTest, SetsWithInvalidIndicesAreWrittenAndNamed) {
     EXPECT_EQ(document["findings"], (json{"configuration set '?': row 0" + invalid + "0" + rule,
                                           "configuration set 'slow': row 1" + invalid + "0" + rule,
                                           "configuration set 'slow': row 1" + invalid + "1" + rule}));
-    EXPECT_EQ(describe({Rule::kConfigurationRefused, 0U, 0U}, make_view(table)).substr(0U, 38U),
+    EXPECT_EQ(describe({Rule::kConfigurationRefused, 0U, 0U}, make_view(table)).substr(0U, 39U),
               "configuration set '?' cannot be checked");
 }
 
