@@ -11,7 +11,7 @@ using mamori::Status;
 
 namespace {
 
-/// Seconds to the microsecond, without zeros at the end.
+/// Seconds with microsecond resolution, without trailing zeros.
 std::string show_seconds(double seconds) {
     std::string text = std::to_string(seconds);
     text.erase(text.find_last_not_of('0') + 1U);

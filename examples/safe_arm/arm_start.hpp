@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a run in virtual time and one by the clock have in common before their first frame.
+/// Start of the system, common to runs in virtual time and in real time.
 ///
 /// @satisfies SWR-SAF-024      Design: docs/design/safe_arm.md#record
 #ifndef EXAMPLES_SAFE_ARM_ARM_START_HPP
@@ -16,20 +16,21 @@
 
 namespace safe_arm {
 
-/// The path begins here: operational since 0.1 s, brakes open, hold settled.
+/// Start of the path: the arm is operational since 0.1 s, the brakes are open, and the position control has
+/// settled.
 inline constexpr mamori::Duration kMotionStart{500'000'000};
 
-/// Reads the model, which must lie around the safe limits, and the motion, when one is named.
-/// @return one line with file and reason, or nothing.
+/// Reads the model, whose limits must contain the safe limits, and the motion, if one is specified.
+/// @return one line with file and cause; empty on success.
 std::string load_inputs(const std::string& model_path, const std::string& motion_path,
                         mamori::sim::LoadedModel& loaded, MotionTrack& track);
 
-/// @return why `fault`, whose instant counts from the start of the motion, cannot be injected during the
-/// motion of `track`; or nothing.
+/// @return the reason if `fault`, whose instant counts from the start of the motion, cannot be injected
+///         during the motion of `track`; otherwise empty.
 std::string check_fault_instant(const mamori::sim::FaultPlan& fault, const MotionTrack& track);
 
-/// Configures the components and puts the executive under supervision.
-/// @param[in] track, law must outlive the run. @return why the system does not start, or nothing.
+/// Configures the components and starts the supervision of the executive.
+/// @param[in] track, law must outlive the run. @return the cause of a failed start; empty on success.
 std::string prepare_system(const mamori::sim::ArmModel& model, const MotionTrack& track,
                            mamori::sim::ComputedTorqueController& law);
 

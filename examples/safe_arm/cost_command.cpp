@@ -20,7 +20,8 @@ int fail(int exit_code, const std::string& message) {
     return exit_code;
 }
 
-/// Which branches the supervisor took: a class of inputs that stops the arm is another one than it seems.
+/// Final state of the supervisor: if the arm stopped, the class of inputs measures other branches than
+/// intended.
 std::vector<std::string> make_notes() {
     std::string state = std::string{"the arm ended in state "} + get_name(supervisor.get_state());
     if (supervisor.get_first_fault() < kArmFaultCount) {

@@ -56,7 +56,7 @@ void Machine::apply_software_faults(Instant now) noexcept {
             break;  // faults of the plant
     }
     channel.set_fault(channel_fault);
-    // Both are in the table, so neither call can be refused.
+    // Both components are in the table, so both calls succeed.
     static_cast<void>(host_.set_duration(controller, controller_time));
     static_cast<void>(host_.set_duration(supervisor, supervisor_time));
 }

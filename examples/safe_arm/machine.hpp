@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Everything around the safety software in a simulated run: the plant behind the process image, the
-/// operator's start button, the hardware watchdog, and the faults of the plan at their instants.
+/// Environment of the safety software in a simulated run: the plant with its process image, the start button
+/// of the operator, the hardware watchdog, and the injected faults of the plan.
 #ifndef EXAMPLES_SAFE_ARM_MACHINE_HPP
 #define EXAMPLES_SAFE_ARM_MACHINE_HPP
 
@@ -12,10 +12,10 @@
 
 namespace safe_arm {
 
-/// The operator presses start once, long after the self test can have passed.
+/// The operator presses start once, long after the end of the self test.
 bool is_start_pressed(mamori::Instant now) noexcept;
 
-/// Devices of the run; calls the recorder after each frame. All references must outlive it.
+/// Devices of the run. Calls the recorder after each major frame. All references must outlive this object.
 class Machine final : public mamori::Devices {
   public:
     /// @param[in] fault with `at` in simulated time.
@@ -26,7 +26,7 @@ class Machine final : public mamori::Devices {
     void sample(std::uint64_t frame, mamori::Instant now) noexcept override;
     void apply(std::uint64_t frame, mamori::Instant now, mamori::Duration length) noexcept override;
 
-    /// False once the plant's state is no longer finite.
+    /// False after the state of the plant has become infinite or not-a-number.
     bool is_plant_sound() const noexcept { return is_plant_sound_; }
 
   private:

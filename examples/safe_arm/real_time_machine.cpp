@@ -9,8 +9,8 @@
 namespace safe_arm {
 namespace {
 
-/// Below the windows, above everything that has no fixed priority; without the right for it the plant runs
-/// all the same and is late more often.
+/// Below the windows, above all threads without fixed priority. Without the privilege, the plant runs
+/// nevertheless and is late more often.
 constexpr int kPlantPriority = 60;
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Everything around the safety software in real time: the plant on a thread of its own, one frame behind the
-/// commands as in virtual time, so that its computing takes no time from a window.
+/// Environment of the safety software in real time. The plant runs on a separate thread, so that it uses no
+/// time of a window. As in virtual time, it follows the commands one major frame later.
 ///
 /// @satisfies SWR-TIM-004      Design: docs/design/timing.md#plant
 #ifndef EXAMPLES_SAFE_ARM_REAL_TIME_MACHINE_HPP
@@ -18,29 +18,30 @@
 
 namespace safe_arm {
 
-/// Devices of a run by the clock. The operator presses start as in virtual time.
+/// Devices of a real-time run. The operator presses start as in virtual time.
 ///
-/// Calling context: the listener's calls from the thread that runs the windows, each O(1) without blocking.
-/// Memory: that of the plant.
+/// Calling context: the observer calls come from the thread that runs the windows; each is O(1) and does not
+/// block.
+/// Memory: only that of the plant.
 class RealTimeMachine final : public mamori::ports::posix_rt::OpeningObserver {
   public:
-    /// Starts the thread. @param[in] plant must outlive this object; nobody else may touch it meanwhile.
+    /// Starts the thread. @param[in] plant must outlive this object; meanwhile, no other code may access it.
     explicit RealTimeMachine(mamori::sim::ArmPlant& plant);
     RealTimeMachine(const RealTimeMachine&) = delete;
     RealTimeMachine& operator=(const RealTimeMachine&) = delete;
     ~RealTimeMachine();
 
-    /// Before the first window of a frame: the newest sample into the process image.
+    /// Before the first window of a major frame: copies the newest sample to the process image.
     void before_opening(const mamori::FrameSchedule::Opening& opening,
                         mamori::Instant woke) noexcept override;
-    /// After the last window of a frame: the commands to the plant.
+    /// After the last window of a major frame: forwards the commands to the plant.
     void after_opening(const mamori::FrameSchedule::Opening& opening,
                        mamori::WindowOutcome outcome) noexcept override;
 
-    /// Frames for which the plant was not ready: its time stood still meanwhile, and its sample was an old
-    /// one.
+    /// Major frames for which the plant was not ready. Its time was stopped meanwhile, and its sample was
+    /// old.
     std::uint64_t get_late_count() const noexcept { return late_count_; }
-    /// False once the plant's state is no longer finite.
+    /// False after the state of the plant has become infinite or not-a-number.
     bool is_plant_sound() const noexcept { return is_plant_sound_.load(std::memory_order_relaxed); }
 
   private:
@@ -52,9 +53,9 @@ class RealTimeMachine final : public mamori::ports::posix_rt::OpeningObserver {
     void serve();
 
     mamori::sim::ArmPlant& plant_;
-    Command command_{};                   ///< belongs to the thread while it steps
+    Command command_{};                   ///< used by the thread during its step
     mamori::safety::ArmInputs sample_{};  ///< likewise
-    bool is_stepping_{false};             ///< as the runner knows it
+    bool is_stepping_{false};             ///< state that the runner knows
     std::uint64_t late_count_{0U};
     std::atomic<bool> is_plant_sound_{true};
     std::atomic<bool> is_ending_{false};

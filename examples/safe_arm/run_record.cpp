@@ -21,7 +21,7 @@ using mamori::Duration;
 using mamori::Instant;
 using mamori::safety::SafeState;
 
-/// The tracking error is judged from here on: the brakes have opened and the hold has settled.
+/// Start of the check of the tracking error: the brakes have opened and the position control has settled.
 constexpr Duration kTransient = 500_ms;
 constexpr Duration kDenseBefore = 50_ms;
 constexpr Duration kDenseAfter = 400_ms;
@@ -47,7 +47,7 @@ std::string make_series_header() {
     return header + ",state,torque_enable,brake_release\n";
 }
 
-/// The argument by its name.
+/// Name of the argument of an event.
 std::string describe_argument(const mamori::Event& event) {
     switch (static_cast<ArmEvent>(event.code)) {
         case ArmEvent::kStateEntered:
@@ -77,7 +77,7 @@ std::string make_events_text(const mamori::EventLog& events) {
     return text;
 }
 
-/// Who noticed first: the supervisor's fault register, the gate that got no fresh permission, or the
+/// First detector: the fault register of the supervisor, the drive gate without a fresh permission, or the
 /// watchdog.
 const char* find_detector(const FrameFacts& facts, bool has_begun_stop) {
     if (facts.first_fault != mamori::safety::kNoFault) {
@@ -130,7 +130,8 @@ void RunRecord::note_instants(const FrameFacts& facts, const mamori::sim::ArmPla
     if (!operational_at_.has_value() && facts.state == SafeState::kOperational) {
         operational_at_ = facts.start;
     }
-    // The frame that begins at the injection already runs with the fault; its travel starts where it began.
+    // The major frame that begins at the injection already runs with the fault, so the travel counts from its
+    // start.
     if (has_fault() && !is_injected_ && facts.end >= Instant{} + fault_.at) {
         is_injected_ = true;
         verdict_.mark_injection(plant.positions());
@@ -147,7 +148,7 @@ void RunRecord::note_instants(const FrameFacts& facts, const mamori::sim::ArmPla
         reacted_at_ = facts.end;
         verdict_.mark_stop();
     }
-    // A fault that is tolerated is judged too: there the tracking is the only thing that could suffer.
+    // The tracking is also checked with a tolerated fault, since only the tracking can become worse then.
     const bool is_judged = operational_at_.has_value() && facts.start >= *operational_at_ + kTransient &&
                            !reacted_at_.has_value();
     if (is_judged) {
@@ -203,7 +204,7 @@ std::string RunRecord::make_summary(const Closing& closing) const {
     const Json detected = detector_ == nullptr ? Json(nullptr) : Json(detector_);
     Json reaction = nullptr;
     if (reacted_at_.has_value()) {
-        // Without a reaction of the supervisor it was the gate or the relay, and both switch torque off.
+        // Without a reaction of the supervisor, the gate or the relay reacted. Both switch torque off.
         const bool is_by_supervisor = last_.reaction != Reaction::kNone;
         reaction = get_name(is_by_supervisor ? last_.reaction : Reaction::kSto);
     }
@@ -245,14 +246,15 @@ std::string claim_folder(const std::string& folder) {
     namespace fs = std::filesystem;
     std::error_code error;
     fs::create_directories(folder, error);
-    // The summary goes first and comes last: whoever finds one finds the whole record of one run.
+    // run.json is removed first and written last, so that its presence indicates a complete record of one
+    // run.
     const bool is_clear = !error && (fs::remove(fs::path{folder} / "run.json", error) || !error);
     const fs::path series = fs::path{folder} / "series.csv";
     if (is_clear && replace_file(series, {}) && fs::remove(series, error)) {
         return {};
     }
-    const std::string reason = error ? error.message() : "no file can be made in it";
-    return folder + ": the record cannot be written (" + reason + "): name a folder that you may write to";
+    const std::string reason = error ? error.message() : "no file can be created in it";
+    return folder + ": the record cannot be written (" + reason + "): specify a writable folder";
 }
 
 std::string RunRecord::write(const mamori::EventLog& events, const Closing& closing) const {
@@ -262,7 +264,7 @@ std::string RunRecord::write(const mamori::EventLog& events, const Closing& clos
         replace_file(folder / "run.json", make_summary(closing))) {
         return {};
     }
-    return options_.out + ": the record cannot be written: the disk may be full, or the folder has gone";
+    return options_.out + ": the record cannot be written: check the free space and the folder";
 }
 
 }  // namespace safe_arm

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Record of one run: the facts of docs/design/trace.md#evidence-files, gathered frame by frame and written
-/// when the run is over.
+/// Record of one run: the data of docs/design/trace.md#evidence-files, collected in each major frame and
+/// written after the run.
 ///
 /// @satisfies SWR-SAF-016      Design: docs/design/safe_arm.md#record
 #ifndef EXAMPLES_SAFE_ARM_RUN_RECORD_HPP
@@ -23,13 +23,13 @@
 
 namespace safe_arm {
 
-/// What the software believed and did in one frame.
+/// State and outputs of the software in one major frame.
 struct FrameFacts {
     mamori::Instant start{};
     mamori::Instant end{};
     mamori::safety::SafeState state{};
     mamori::safety::FaultIndex first_fault{mamori::safety::kNoFault};
-    mamori::safety::Reaction reaction{};  ///< severest demanded so far
+    mamori::safety::Reaction reaction{};  ///< most severe requested reaction so far
     bool is_stopping{false};              ///< torque off, or a controlled stop requested
     bool is_watchdog_expired{false};
     JointVector setpoint_rad{};
@@ -37,16 +37,15 @@ struct FrameFacts {
     bool brake_release{false};
 };
 
-/// Writes beside the wanted file and renames, so that no reader sees a part of it. @return false when it
-/// could not.
+/// Writes a file atomically: to a temporary file next to it, which is then renamed. @return false on failure.
 bool replace_file(const std::filesystem::path& path, const std::string& text);
 
-/// Makes the folder of a record and tries a file in it, so that a long run does not end without a place to go
-/// to.
-/// @return empty on success, else one line with the reason.
+/// Creates the folder of a record and a test file in it, so that a long run does not end without a writable
+/// folder.
+/// @return empty on success, otherwise one line with the cause.
 std::string claim_folder(const std::string& folder);
 
-/// Gathers one run. Host only; owns heap memory. Thread safety: none.
+/// Collects the data of one run. Host only; owns heap memory. Thread safety: none.
 class RunRecord final {
   public:
     /// @param[in] fault with `at` in simulated time. @param[in] motion_start instant at which the path
@@ -54,10 +53,10 @@ class RunRecord final {
     RunRecord(const RunOptions& options, const mamori::sim::ArmModel& model,
               const mamori::sim::FaultPlan& fault, mamori::Instant motion_start, mamori::Instant motion_end);
 
-    /// To be installed in the plant: judges the true motion in every integration step.
+    /// To be installed in the plant: checks the true motion in every integration step.
     mamori::sim::PhysicalVerdict& get_verdict() noexcept { return verdict_; }
 
-    /// Call once per frame, after the plant has moved.
+    /// Call once per major frame, after the step of the plant.
     void add_frame(const FrameFacts& facts, const mamori::sim::ArmPlant& plant);
 
     /// Closing facts of a run.
@@ -66,8 +65,8 @@ class RunRecord final {
         std::uint64_t trace_hash{0U};
         double wall_s{0.0};
     };
-    /// Writes series.csv, events.csv and, last, run.json into the folder; each is whole or not there.
-    /// @return empty on success, else one line with the reason; there is no run.json then.
+    /// Writes series.csv, events.csv and, last, run.json to the folder, each atomically.
+    /// @return empty on success, otherwise one line with the cause, and run.json does not exist.
     std::string write(const mamori::EventLog& events, const Closing& closing) const;
 
   private:
@@ -88,7 +87,7 @@ class RunRecord final {
     std::optional<mamori::Instant> detected_at_{};
     std::optional<mamori::Instant> reacted_at_{};
     bool is_injected_{false};
-    const char* detector_{nullptr};  ///< name of the fault, or of who noticed it; nullptr: nobody yet
+    const char* detector_{nullptr};  ///< name of the fault or of the detector; nullptr: not detected
 };
 
 }  // namespace safe_arm

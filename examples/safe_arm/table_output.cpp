@@ -10,8 +10,8 @@
 namespace safe_arm {
 
 std::string save_table(const std::string& path) {
-    // The safety layer keeps the reactions of this example (arm_faults.hpp); the picture shows them beside
-    // the rest.
+    // The safety layer contains the reactions of this example (arm_faults.hpp). They are added to the
+    // picture.
     std::array<mamori::FaultRow, kArmFaultCount> faults{};
     std::array<mamori::ReactionRow, kArmFaultCount> reactions{};
     for (std::size_t i = 0U; i < kArmFaultCount; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The system table of the example for people: `safe_arm table --out FILE`, shown by `mamori table FILE`.
+/// The system table of the example in readable form: `safe_arm table --out FILE`, shown by `mamori table
+/// FILE`.
 ///
 /// Design: docs/design/cost.md#library
 #ifndef EXAMPLES_SAFE_ARM_TABLE_OUTPUT_HPP
@@ -11,7 +12,7 @@
 namespace safe_arm {
 
 /// Writes windows, components and connections of the static table, and the reactions of the safety layer.
-/// @return empty when done, else one sentence with the path and the cause.
+/// @return empty on success, otherwise one sentence with the path and the cause.
 [[nodiscard]] std::string save_table(const std::string& path);
 
 }  // namespace safe_arm

@@ -22,7 +22,7 @@ int fail(int exit_code, const std::string& message) {
     return exit_code;
 }
 
-/// What the supervisor made of the run: lateness of the machine may well have stopped the arm.
+/// Final state of the supervisor: lateness of the host can stop the arm.
 std::vector<std::string> make_notes(const RealTimeMachine& machine) {
     std::string state = std::string{"the arm ended in state "} + get_name(supervisor.get_state());
     if (supervisor.get_first_fault() < kArmFaultCount) {
@@ -46,7 +46,7 @@ std::vector<std::string> make_findings(mamori::safety::SafeState state, std::siz
     return {finding};
 }
 
-/// The states of the supervisor, which begin with 1.
+/// The states of the supervisor, numbered from 1.
 std::vector<mamori::timing::SystemState> list_states() {
     std::vector<mamori::timing::SystemState> states;
     for (std::size_t i = 0U; i < mamori::safety::kSafeStateCount; ++i) {
@@ -57,7 +57,7 @@ std::vector<mamori::timing::SystemState> list_states() {
 }
 
 int run_timing_command(const RunOptions& options) {
-    // Static: work that hangs when the run is over may still use them.
+    // Static, since hanging work can use these objects after the run.
     static mamori::sim::LoadedModel loaded;
     static MotionTrack track;
     const std::string refusal = load_inputs(options.model, options.motion, loaded, track);
@@ -74,7 +74,7 @@ int run_timing_command(const RunOptions& options) {
     if (options.with_requests) {
         executive.set_introspection(&introspection);
     }
-    // Never destroyed: work that hangs may outlive this function.
+    // Never destroyed, since hanging work can use it after this function has returned.
     static auto& threads =
         *new std::vector<mamori::ports::posix_rt::WindowThread>(executive.get_view().windows.size());
     RealTimeMachine machine{plant};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// `safe_arm timing`: the system by the clock, measured.
+/// `safe_arm timing`: runs and measures the system in real time.
 ///
 /// @satisfies SWR-TIM-004, SWR-TIM-005      Design: docs/design/timing.md#plant
 #ifndef EXAMPLES_SAFE_ARM_TIMING_COMMAND_HPP
@@ -15,13 +15,12 @@
 
 namespace safe_arm {
 
-/// That the arm left its operating state, with the first fault: a finding of the run. Empty before it began
-/// to operate, and while it operates. @param[in] first_fault index of kArmFaultNames; kArmFaultCount and
-/// more: none.
+/// Finding of the run if the arm left its operating state, with the first fault. Empty before and during
+/// operation. @param[in] first_fault index in kArmFaultNames; kArmFaultCount and above: no fault.
 std::vector<std::string> make_findings(mamori::safety::SafeState state, std::size_t first_fault);
 
-/// Runs `frames` frames and writes what `mamori timing` reads into the folder `out`. Without a motion the arm
-/// holds its position. @return the exit status.
+/// Runs `frames` major frames and writes the files for `mamori timing` to the folder `out`. Without a motion,
+/// the arm holds its position. @return the exit status.
 int run_timing_command(const RunOptions& options);
 
 }  // namespace safe_arm

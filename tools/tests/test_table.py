@@ -122,7 +122,7 @@ def test_empty_table_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]
 def test_frame_that_is_not_positive_is_shown_with_its_finding_and_status_1(
     tmp_path: Path, frame_ns: int, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    path = write(tmp_path, frame_ns=frame_ns, findings=[f"the frame of {frame_ns} ns is not positive"])
+    path = write(tmp_path, frame_ns=frame_ns, findings=[f"the major frame of {frame_ns} ns is not positive"])
     assert table(path, "--text", "--svg-time-line", tmp_path / "t.svg") == 1
     assert "is not positive" in capsys.readouterr().out
     ElementTree.parse(tmp_path / "t.svg")

@@ -77,7 +77,7 @@ def test_folder_that_cannot_be_made_and_project_that_cannot_be_built_are_told_in
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "file").write_text("x", encoding="utf-8")
-    with pytest.raises(InputError, match=r"nothing can be written there .*; name a folder that you may write to"):
+    with pytest.raises(InputError, match=r"not writable .*; specify a writable folder"):
         prove_safe_state(Request(out=tmp_path / "file" / "out"))
 
     assert prove_safe_state(Request(), Project(tmp_path)) == 1

@@ -245,9 +245,9 @@ TEST_F(RunTest, RecorderFileThatCannotBeUsedIsRefusedBeforeTheRun) {
         EXPECT_EQ(run(arguments("--frames 700 --recorder '" + path + "'")), 2);
         expect_one_line(part);
     };
-    expect_refused(folder_.string(), "no regular file");
+    expect_refused(folder_.string(), "not a regular file");
     expect_refused((folder_ / "gone" / "run.rec").string(), "No such file");
-    std::ofstream{folder_ / "other"} << "somebody's notes\n";
+    std::ofstream{folder_ / "other"} << "other content\n";
     expect_refused((folder_ / "other").string(), "another size");
     const std::string foreign(mamori::flight::calc_region_size(kRecorderCapacity), 'x');
     std::ofstream{folder_ / "foreign", std::ios::binary} << foreign;

@@ -15,10 +15,10 @@ class ClockSubject final {
     explicit ClockSubject(std::unique_ptr<ClockRig> rig)
         : rig_(std::move(rig)), origin_(rig_->get_now()), last_(origin_) {}
 
-    /// Reads the clock and compares it with the reading before.
+    /// Reads the clock and compares it with the previous reading.
     Instant read(Judge& judge) {
         const Instant now = rig_->get_now();
-        judge.expect(now >= last_, "the clock went back");
+        judge.expect(now >= last_, "the clock ran backwards");
         last_ = now > last_ ? now : last_;
         return now;
     }
@@ -29,17 +29,17 @@ class ClockSubject final {
             static_cast<void>(read(judge));
         }
         if (rig_->is_exact()) {
-            judge.expect_equal(last_, before, "time passed though nobody waited");
+            judge.expect_equal(last_, before, "time passed without a wait");
         }
     }
 
-    /// @param[in] distance of the instant from now; below 0 it has passed already.
+    /// @param[in] distance time from now to the instant; if negative, the instant has passed.
     void wait(Duration distance, Judge& judge) {
         const Instant before = read(judge);
         wait_until(before, before + distance, judge);
     }
 
-    /// Waits for the next place on a grid that began with the port.
+    /// Waits for the next instant of a schedule that began with the port.
     void wait_for_grid(Judge& judge) {
         const Instant before = read(judge);
         const Duration period = rig_->get_tick() * 3;
@@ -49,7 +49,7 @@ class ClockSubject final {
 
     Duration get_tick() const { return rig_->get_tick(); }
 
-    /// Places inside a period of the grid are states of their own.
+    /// The state includes the position within a period of the schedule.
     std::string describe_state() const {
         const Duration period = rig_->get_tick() * 3;
         return rig_->is_exact() ? std::to_string((last_ - origin_).ns % period.ns) : "running";
@@ -80,13 +80,13 @@ Rule<ClockSubject> make_wait(const char* name, std::int64_t ticks, Duration more
 Rules<ClockSubject> make_rules() {
     const auto always = [](const ClockSubject&) { return true; };
     return {
-        {"read the clock often", kRequirement, always,
+        {"read the clock repeatedly", kRequirement, always,
          [](ClockSubject& subject, Judge& judge) { subject.read_often(judge); }},
         make_wait("wait one tick", 1, 0_ns),
         make_wait("wait a nanosecond", 0, 1_ns),
         make_wait("wait for now", 0, 0_ns),
         make_wait("wait for an instant that has passed", -2, 0_ns),
-        {"wait for the next place on the grid", kRequirement, always,
+        {"wait for the next instant of the schedule", kRequirement, always,
          [](ClockSubject& subject, Judge& judge) { subject.wait_for_grid(judge); }},
     };
 }

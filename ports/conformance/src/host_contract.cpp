@@ -16,11 +16,11 @@ constexpr const char* kCount = "SWR-CNF-003";
 constexpr const char* kCutOff = "SWR-CNF-004";
 constexpr const char* kReturn = "SWR-CNF-005";
 
-/// In ticks: no machine is too slow for it.
+/// Budget in ticks, sufficient on every host.
 constexpr std::int64_t kPlenty = 60'000;
 constexpr std::int64_t kHang = -1;
 
-/// An order in ticks.
+/// An order with times in ticks.
 struct OrderPlan {
     std::vector<std::int64_t> steps;
     std::int64_t budget;
@@ -46,9 +46,9 @@ Rule<HostSubject> make_run(const std::string& name, const char* requirement, std
             }};
 }
 
-/// Work that must not be disturbed by another window that hangs.
+/// Work that a hanging window must not disturb.
 Rule<HostSubject> make_beside(std::size_t window, std::size_t hanging) {
-    Rule<HostSubject> rule = make_run("work beside a hang of window " + std::to_string(hanging), kCutOff,
+    Rule<HostSubject> rule = make_run("work during a hang of window " + std::to_string(hanging), kCutOff,
                                       window, {{0, 0, 0}, kPlenty});
     rule.precondition = [window, hanging](const HostSubject& subject) {
         return !subject.is_hanging(window) && subject.is_hanging(hanging);
@@ -56,11 +56,11 @@ Rule<HostSubject> make_beside(std::size_t window, std::size_t hanging) {
     return rule;
 }
 
-/// Work that comes back, by itself or late.
+/// Work that returns, in time or late.
 void add_work_rules(std::size_t window, Rules<HostSubject>& rules) {
     rules.push_back(make_run("work that fits", kCount, window, {{0, 1, 0, 1}, kPlenty}));
     rules.push_back(make_run("one step", kOrder, window, {{1}, kPlenty}));
-    rules.push_back(make_run("numbers that do not begin at 0", kOrder, window,
+    rules.push_back(make_run("numbers that do not start at 0", kOrder, window,
                              {{0, 0}, kPlenty, 0_ns, Pass::kExecute, 7U}));
     rules.push_back(make_run("second pass", kOrder, window, {{0, 0, 0}, kPlenty, 0_ns, Pass::kStateUpdate}));
     rules.push_back(make_run("mode step", kOrder, window, {{1, 0}, kPlenty, 0_ns, Pass::kModeStep}));
@@ -68,20 +68,20 @@ void add_work_rules(std::size_t window, Rules<HostSubject>& rules) {
     rules.push_back(make_run("a late step", kCount, window, {{0, 5, 0, 0}, 3}));
     rules.push_back(make_run("work that ends at its deadline", kCount, window, {{1, 2}, 3}));
     rules.push_back(make_run("work that ends a nanosecond late", kCount, window, {{1, 2}, 3, Duration{-1}}));
-    rules.push_back(make_run("no time at all", kCount, window, {{0, 1}, 0}));
+    rules.push_back(make_run("no budget", kCount, window, {{0, 1}, 0}));
     rules.push_back(make_run("a deadline that has passed", kCount, window, {{0, 0}, 0, Duration{-1}}));
 }
 
-/// Work that does not come back before it is released.
+/// Work that returns only after its release.
 void add_hang_rules(std::size_t window, Rules<HostSubject>& rules) {
     const auto is_hanging = [window](const HostSubject& subject) { return subject.is_hanging(window); };
     const std::string suffix = ", window " + std::to_string(window);
-    rules.push_back(make_run("a hang in the middle", kCutOff, window, {{0, kHang, 0}, 2}));
-    rules.push_back({"ask while it hangs" + suffix, kReturn, is_hanging,
+    rules.push_back(make_run("a hang of the second step", kCutOff, window, {{0, kHang, 0}, 2}));
+    rules.push_back({"query during the hang" + suffix, kReturn, is_hanging,
                      [window](HostSubject& subject, Judge& judge) { subject.ask(window, judge); }});
     rules.push_back({"release" + suffix, kReturn, is_hanging,
                      [window](HostSubject& subject, Judge& judge) { subject.release(window, judge); }});
-    rules.push_back(make_run("a hang at once", kCutOff, window, {{kHang, 0, 0, 0}, 2}));
+    rules.push_back(make_run("a hang of the first step", kCutOff, window, {{kHang, 0, 0, 0}, 2}));
     rules.push_back(
         make_run("a hang in a mode step", kCutOff, window, {{0, kHang}, 2, 0_ns, Pass::kModeStep}));
     rules.push_back(make_run("a hang after the deadline", kCutOff, window, {{kHang}, -1}));

@@ -9,8 +9,8 @@
 namespace mamori::ports::conformance {
 namespace {
 
-/// Ticks that a rule waits for work to come back which was released: no bound of the contract, but the end of
-/// a test that would never end.
+/// Maximum wait for the return of released work, in ticks. The contract has no such bound; it only limits the
+/// duration of a failing test.
 constexpr int kPatience = 120'000;
 
 }  // namespace
@@ -50,7 +50,7 @@ std::string HostSubject::describe_state() const {
 
 Instant HostSubject::read_now(Judge& judge) {
     const Instant now = rig_->get_host().get_now();
-    judge.expect(now >= last_, "the clock went back");
+    judge.expect(now >= last_, "the clock ran backwards");
     last_ = now > last_ ? now : last_;
     return now;
 }
@@ -81,57 +81,59 @@ void HostSubject::run(const Order& order, Judge& judge) {
     } else if (prediction.has_hang) {
         window.is_hanging = true;
     } else {
-        judge.expect(wait_for_return(order.window), "work that was late never returned");
+        judge.expect(wait_for_return(order.window), "late work never returned");
         check_rest(order.window, judge);
     }
 }
 
-/// Counts and instants, of which the contract says something whether the work is back or not.
+/// Checks counts and instants, for which the contract holds before and after the return of the work.
 void HostSubject::check_answer(const Order& order, const Prediction& prediction, std::size_t count,
                                Instant after, Judge& judge) {
     const Window& window = windows_.at(order.window);
-    judge.expect(count <= prediction.count, "a step was counted that cannot have returned by the deadline");
+    judge.expect(count <= prediction.count, "a counted step cannot have returned by the deadline");
     judge.expect(count >= order.steps.size() || after >= window.deadline,
-                 "work was cut off before its deadline");
+                 "work was aborted before its deadline");
     if (rig_->is_exact()) {
         judge.expect_equal(static_cast<std::int64_t>(count), static_cast<std::int64_t>(prediction.count),
                            "steps counted");
-        judge.expect_equal(after, window.begin + prediction.end, "the work ended at another instant");
+        judge.expect_equal(after, window.begin + prediction.end,
+                           "the work did not end at the expected instant");
     }
     check_steps(order.window, std::min(count, order.steps.size()), judge);
     for (std::size_t i = 0U; i < std::min(count, order.steps.size()); ++i) {
         judge.expect(logs_.at(order.window).get_entry(i).end <= window.deadline,
-                     "a step was counted that ended after the deadline");
+                     "a counted step ended after the deadline");
     }
 }
 
-/// The first `count` steps of a window, of which the host has said that they are over.
+/// Checks the first `count` steps of a window, whose end the host has reported.
 void HostSubject::check_steps(std::size_t window, std::size_t count, Judge& judge) const {
     const WorkLog& log = logs_.at(window);
     Instant end = windows_.at(window).begin;
-    judge.expect(log.get_begun_count() >= count, "a step was counted that did not run");
+    judge.expect(log.get_begun_count() >= count, "a counted step did not run");
     for (std::size_t i = 0U; i < count; ++i) {
         const WorkLog::Entry& entry = log.get_entry(i);
-        judge.expect(entry.number == log.get_first() + i, "steps ran twice, not at all, or in another order");
-        judge.expect(entry.has_ended, "the host said that a step is over which is not");
-        judge.expect(entry.begin >= end, "a step began before the one before it had ended");
+        judge.expect(entry.number == log.get_first() + i,
+                     "a step ran twice, or a step did not run, or the order was wrong");
+        judge.expect(entry.has_ended, "the host reported the end of a step that still ran");
+        judge.expect(entry.begin >= end, "a step began before the previous step had ended");
         judge.expect(entry.end >= entry.begin, "a step ended before it began");
         end = entry.end;
     }
 }
 
-/// Everything of a window's last work, which the host has said to be over.
+/// Checks the last work of a window, whose end the host has reported.
 void HostSubject::check_rest(std::size_t window, Judge& judge) {
     Window& state = windows_.at(window);
     const WorkLog& log = logs_.at(window);
     const std::size_t begun = log.get_begun_count();
     const std::size_t count = log.get_count();
-    judge.expect(log.get_ended_count() == begun, "the host said that work is over while a step was running");
-    judge.expect(begun <= count, "more steps ran than there are");
-    judge.expect(begun <= state.latest + 2U, "abandoned work entered more than one further step");
+    judge.expect(log.get_ended_count() == begun, "the host reported the end of work while a step ran");
+    judge.expect(begun <= count, "more steps ran than the work has");
+    judge.expect(begun <= state.latest + 2U, "aborted work began more than one further step");
     check_steps(window, std::min(begun, count), judge);
     if (state.latest < std::min(begun, count)) {
-        // A hang is released after the deadline; a coarse clock may show the same instant for both.
+        // A hang is released after the deadline. A coarse clock can show the same instant for both.
         const Duration later = log.get_step(state.latest).is_hang ? 0_ns : 1_ns;
         judge.expect(log.get_entry(state.latest).end >= state.deadline + later,
                      "a step that took longer than the budget did not end after the deadline");
@@ -141,29 +143,29 @@ void HostSubject::check_rest(std::size_t window, Judge& judge) {
     state.begun_at_rest = begun;
 }
 
-/// Nothing may begin in a window after its work was said to be over.
+/// Checks that no step begins in a window after the reported end of its work.
 void HostSubject::check_quiet(Judge& judge) const {
     for (std::size_t i = 0U; i < windows_.size(); ++i) {
         judge.expect(!windows_[i].is_at_rest || logs_[i].get_begun_count() == windows_[i].begun_at_rest,
-                     "a step began after its work was said to be over");
+                     "a step began after the reported end of its work");
     }
 }
 
 void HostSubject::ask(std::size_t window, Judge& judge) {
     const WorkLog& log = logs_.at(window);
-    // In this order: a step that is inside now stays there, since nobody lets it go.
+    // This order matters: a step that runs now continues to run, since it was not released.
     const bool is_inside = log.get_begun_count() > log.get_ended_count();
     const bool has_returned = rig_->get_host().has_returned(window);
-    judge.expect(!(is_inside && has_returned), "work that hangs was said to be over");
+    judge.expect(!(is_inside && has_returned), "the end of hanging work was reported");
     if (has_returned && !is_inside) {
-        check_rest(window, judge);  // it was cut off before it could hang
+        check_rest(window, judge);  // the work was aborted before the hanging step
     }
     check_quiet(judge);
 }
 
 void HostSubject::release(std::size_t window, Judge& judge) {
     rig_->release(window);
-    judge.expect(wait_for_return(window), "work that was released never returned");
+    judge.expect(wait_for_return(window), "released work never returned");
     check_rest(window, judge);
     check_quiet(judge);
     static_cast<void>(read_now(judge));

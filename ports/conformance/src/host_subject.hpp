@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A host with the model of its contract: what may come of a piece of work, by the times that its steps take.
+/// A platform host with the model of its contract, which predicts the result of work from the times of its
+/// steps.
 ///
 /// @satisfies SWR-CNF-002, SWR-CNF-003, SWR-CNF-004, SWR-CNF-005
 /// Design: docs/design/conformance.md#windows
@@ -18,27 +19,28 @@
 
 namespace mamori::ports::conformance {
 
-/// A piece of work as a rule asks for it.
+/// Work that a rule requests.
 struct Order {
     std::size_t window{0U};
-    std::size_t first{0U};  ///< number of the first step
+    std::size_t first{0U};  ///< index of the first step
     WindowHost::Pass pass{WindowHost::Pass::kExecute};
     std::vector<StepPlan> steps;
-    Duration budget{0};  ///< from now to the deadline; below 0 it has passed already
+    Duration budget{0};  ///< time to the deadline; negative: deadline has passed
 };
 
-/// What the model says of an order: exact where times are, else a bound, since steps may take longer.
+/// Prediction of the model for an order: exact with simulated time, else a bound, since steps can take
+/// longer.
 struct Prediction {
-    std::size_t count{0U};  ///< steps that may be back in time
-    Duration end{0};        ///< from the beginning until run_within() returns
-    bool has_hang{false};   ///< the first step that is not in time hangs
+    std::size_t count{0U};  ///< steps that can return in time
+    Duration end{0};        ///< time from the start to the return of run_within()
+    bool has_hang{false};   ///< the first late step hangs
 };
 Prediction predict(const Order& order);
 
 class HostSubject final {
   public:
     explicit HostSubject(std::unique_ptr<HostRig> rig);
-    /// Releases what hangs and waits for it.
+    /// Releases hanging work and waits for its return.
     ~HostSubject();
     HostSubject(const HostSubject&) = delete;
     HostSubject& operator=(const HostSubject&) = delete;
@@ -47,11 +49,11 @@ class HostSubject final {
     bool is_hanging(std::size_t window) const { return windows_.at(window).is_hanging; }
     std::string describe_state() const;
 
-    /// Gives an order to the host and compares. Its window must not hang.
+    /// Executes an order on the host and compares the result with the model. The window must not hang.
     void run(const Order& order, Judge& judge);
-    /// Asks whether the work of a window that hangs has returned.
+    /// Queries whether the work of a hanging window has returned.
     void ask(std::size_t window, Judge& judge);
-    /// Lets the work of a window that hangs go and waits for it.
+    /// Releases the work of a hanging window and waits for its return.
     void release(std::size_t window, Judge& judge);
     /// Lets time pass without work.
     void idle(Duration time, Judge& judge);
@@ -59,13 +61,13 @@ class HostSubject final {
   private:
     struct Window {
         bool is_hanging{false};
-        bool is_at_rest{true};  ///< the host said that nothing runs, and nothing will begin
+        bool is_at_rest{true};  ///< the host reported the end of the work
         std::size_t begun_at_rest{0U};
-        std::size_t latest{0U};  ///< Prediction::count of the last order
-        Instant begin{};         ///< of the last order
+        std::size_t latest{0U};  ///< Prediction::count of the last order (index of its first late step)
+        Instant begin{};         ///< start of the last order
         Instant deadline{};
-        std::size_t asked{0U};    ///< steps of it
-        std::size_t counted{0U};  ///< what the host answered
+        std::size_t asked{0U};    ///< steps of the last order
+        std::size_t counted{0U};  ///< steps that the host counted
     };
 
     Instant read_now(Judge& judge);
@@ -78,7 +80,8 @@ class HostSubject final {
 
     std::array<WorkLog, HostRig::kWindowCount> logs_;
     std::array<Window, HostRig::kWindowCount> windows_;
-    std::unique_ptr<HostRig> rig_;  ///< goes first: it may have to wait for work that still writes its log
+    std::unique_ptr<HostRig>
+        rig_;  ///< destroyed first, since it can wait for work that still writes to its log
     Instant last_;
 };
 

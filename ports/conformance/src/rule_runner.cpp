@@ -10,17 +10,16 @@
 namespace mamori::ports::conformance {
 namespace {
 
-/// Steps in the fixed order, per rule: enough to come back to a state that another rule
-/// left.
+/// Maximum steps in fixed order, per rule: sufficient to return to a state that another rule left.
 constexpr std::size_t kRepetitionsMax = 8U;
 
-/// Numbers that a seed fixes, whatever the library. Source: Steele, Lea, Flood, "Fast splittable pseudorandom
-/// number generators", OOPSLA 2014 (SplitMix64).
+/// Random numbers that depend on the seed only, not on the library. Source: Steele, Lea, Flood, "Fast
+/// splittable pseudorandom number generators", OOPSLA 2014 (SplitMix64).
 class Generator final {
   public:
     explicit Generator(std::uint64_t seed) noexcept : state_(seed) {}
 
-    /// @return 0 .. count - 1; the small preference of a remainder is of no importance here.
+    /// @return 0 .. count - 1; the small bias of the remainder is negligible.
     std::size_t draw(std::size_t count) noexcept {
         state_ += 0x9E3779B97F4A7C15U;
         std::uint64_t bits = state_;
@@ -33,7 +32,7 @@ class Generator final {
     std::uint64_t state_;
 };
 
-/// Gathers what comes of one or more trials.
+/// Runs one or more trials and collects their results.
 class Course final {
   public:
     Course(const TrialFactory& factory, std::string order) : factory_(factory), order_(std::move(order)) {
@@ -44,7 +43,7 @@ class Course final {
     }
 
     void begin_trial() {
-        trial_.reset();  // first: a port may own what the next one needs
+        trial_.reset();  // first, since a port may own a resource that the next port needs
         trial_ = factory_();
         MAMORI_ENSURE(1, trial_ != nullptr);
         walk_.clear();
@@ -66,7 +65,7 @@ class Course final {
         }
     }
 
-    /// @return rules whose precondition holds; where there are none, that is a finding.
+    /// @return rules whose precondition holds. If there are none, adds a finding.
     Walk find_applicable() {
         Walk rules;
         for (std::size_t rule = 0U; rule < report_.rules.size(); ++rule) {
@@ -75,14 +74,14 @@ class Course final {
             }
         }
         if (rules.empty()) {
-            add_finding("no rule can be applied in the state " + trial_->describe_state());
+            add_finding("no rule is applicable in state " + trial_->describe_state());
         }
         return rules;
     }
 
     void add_finding(const std::string& finding) {
         std::string text =
-            order_ + ", after " + std::to_string(walk_.size()) + " steps: " + finding + "; walk:";
+            order_ + ", after " + std::to_string(walk_.size()) + " steps: " + finding + "; sequence:";
         for (const std::size_t rule : walk_) {
             text += " " + std::to_string(rule);
         }
@@ -99,7 +98,7 @@ class Course final {
     std::size_t get_rule_count() const { return report_.rules.size(); }
     const Walk& get_walk() const { return walk_; }
 
-    /// @return the report; rules that never ran are findings unless something else was one before.
+    /// @return the report; rules that never ran are findings if there is no other finding.
     Report finish_all() {
         for (std::size_t rule = 0U; rule < get_rule_count() && may_go_on(); ++rule) {
             if (get_count(rule) == 0U) {
@@ -126,15 +125,15 @@ class Course final {
     Report report_;
 };
 
-/// Walks that are still to be tried, as their beginnings.
+/// Beginnings of the sequences that are still to be applied.
 using Pending = std::vector<Walk>;
 
-/// Tries `beginning` on a new port and goes on from it with the first rule that applies, down to the depth;
-/// what else applies on the way is tried later.
+/// Applies `beginning` to a new port and continues with the first applicable rule until the depth is reached.
+/// The other applicable rules are added to `pending`.
 void explore_from(Course& course, const Walk& beginning, std::size_t depth, Pending& pending) {
     for (std::size_t i = 0U; i < beginning.size() && course.may_go_on(); ++i) {
         if (!course.may_apply(beginning[i])) {
-            course.add_finding("the same walk led to another state before");
+            course.add_finding("the same sequence led to a different state earlier");
             return;
         }
         course.apply(beginning[i]);
@@ -165,8 +164,8 @@ Course explore_depth(const TrialFactory& factory, std::size_t depth) {
     return course;
 }
 
-/// Goes on in the fixed order until each rule was applied: at each step the first of those that were applied
-/// least often.
+/// Continues in fixed order until each rule was applied: each step applies the first of the least applied
+/// rules.
 void apply_missing(Course& course) {
     const std::size_t step_count_max = kRepetitionsMax * course.get_rule_count();
     for (std::size_t step = 0U; step < step_count_max && course.may_go_on() && !course.have_all_run();
@@ -235,7 +234,7 @@ Report replay(const TrialFactory& factory, const Walk& walk) {
         if (course.may_apply(walk[i])) {
             course.apply(walk[i]);
         } else {
-            course.add_finding("rule " + std::to_string(walk[i]) + " cannot be applied here");
+            course.add_finding("rule " + std::to_string(walk[i]) + " is not applicable here");
         }
     }
     return course.finish();

@@ -16,15 +16,15 @@ constexpr const char* kRequirement = "SWR-CNF-007";
 
 using Bytes = std::vector<std::byte>;
 
-constexpr std::size_t kCapacity = 6U;  ///< records: a few writes come round to the first slot
-constexpr std::size_t kSpare = 24U;    ///< bytes behind the records
+constexpr std::size_t kCapacity = 6U;  ///< records; a few writes return to the first slot
+constexpr std::size_t kSpare = 24U;    ///< bytes after the records
 constexpr std::size_t kSize = flight::calc_region_size(kCapacity) + kSpare;
 
 Span<std::byte> view(Bytes& bytes) {
     return {bytes.data(), bytes.size()};
 }
 
-/// A session of the flight recorder with two records.
+/// Writes a session of the flight recorder with two records.
 void write_records(Span<std::byte> region) {
     FlightRecorder recorder;
     if (recorder.open(region) == Status::kOk) {
@@ -35,7 +35,7 @@ void write_records(Span<std::byte> region) {
     }
 }
 
-/// The same, and the beginning of a third record.
+/// Like write_records(), and also writes the beginning of a third record.
 void write_torn(Span<std::byte> region) {
     write_records(region);
     FlightReader reader;
@@ -47,18 +47,18 @@ void write_torn(Span<std::byte> region) {
     }
 }
 
-/// The first and the last byte that no record needs.
+/// Writes the first and the last byte that no record uses.
 void write_spare(Span<std::byte> region) {
     for (const std::size_t place : {kSize - kSpare, kSize - 1U}) {
         region[place] = static_cast<std::byte>(std::to_integer<unsigned>(region[place]) + 1U);
     }
 }
 
-void write_foreign(Span<std::byte> region) {
+void write_unexpected(Span<std::byte> region) {
     std::fill(region.begin(), region.end(), std::byte{0xA5U});
 }
 
-/// Records that can be read, by their numbers.
+/// Numbers of the readable records.
 std::vector<std::uint64_t> list_records(Span<std::byte> region) {
     std::vector<std::uint64_t> numbers;
     FlightReader reader;
@@ -74,7 +74,7 @@ std::vector<std::uint64_t> list_records(Span<std::byte> region) {
     return numbers;
 }
 
-/// The model is what the bytes must be: it takes every write that the port is given.
+/// The model contains the expected bytes: each write to the port is also applied to the model.
 class StorageSubject final {
   public:
     explicit StorageSubject(std::unique_ptr<StorageRig> rig) : rig_(std::move(rig)) {}
@@ -84,20 +84,20 @@ class StorageSubject final {
 
     void open(Judge& judge) {
         make_content();
-        judge.expect(rig_->open(kSize) == Status::kOk, "a region that can be opened was refused");
+        judge.expect(rig_->open(kSize) == Status::kOk, "a valid region was rejected");
         is_open_ = true;
         compare(judge);
         const std::vector<std::uint64_t> records = list_records(rig_->get_region());
         judge.expect(newest_before_crash_ == 0U ||
                          std::binary_search(records.begin(), records.end(), newest_before_crash_),
-                     "a record that was written before a crash cannot be read");
+                     "a record written before a crash cannot be read");
         newest_before_crash_ = 0U;
     }
 
     void close(Judge& judge) {
         rig_->close();
         is_open_ = false;
-        judge.expect(rig_->get_region().empty(), "a closed region can still be reached");
+        judge.expect(rig_->get_region().empty(), "a closed region is still accessible");
     }
 
     void write(void (*action)(Span<std::byte>), Judge& judge) {
@@ -118,8 +118,8 @@ class StorageSubject final {
     void open_wrong(std::size_t size, Judge& judge) {
         const Status status = rig_->open(size);
         judge.expect(status != Status::kOk, "a region of another size was opened");
-        judge.expect(size != 0U || status == Status::kBadParameter, "a size of nothing is a bad parameter");
-        judge.expect(rig_->get_region().empty(), "a region that was refused can be reached");
+        judge.expect(size != 0U || status == Status::kBadParameter, "size 0 is a bad parameter");
+        judge.expect(rig_->get_region().empty(), "a rejected region is accessible");
         if (status == Status::kOk) {
             rig_->close();
         }
@@ -135,11 +135,11 @@ class StorageSubject final {
         compare(judge);
     }
 
-    /// Foreign content is left to whoever owns it, and formatted only on demand.
-    void find_foreign(Judge& judge) {
-        write(&write_foreign, judge);
+    /// Unexpected content is unchanged, and formatted only on request.
+    void reject_unexpected(Judge& judge) {
+        write(&write_unexpected, judge);
         FlightRecorder recorder;
-        judge.expect(recorder.open(rig_->get_region()) == Status::kError, "foreign content was opened");
+        judge.expect(recorder.open(rig_->get_region()) == Status::kError, "unexpected content was opened");
         compare(judge);
         write([](Span<std::byte> region) { static_cast<void>(FlightRecorder::format(region)); }, judge);
     }
@@ -153,7 +153,7 @@ class StorageSubject final {
     }
 
   private:
-    /// A region that was not there before begins as zeros.
+    /// A new region is zero-filled.
     void make_content() { content_.resize(kSize); }
 
     void compare(Judge& judge) {
@@ -161,7 +161,7 @@ class StorageSubject final {
         judge.expect_equal(static_cast<std::int64_t>(region.size()), static_cast<std::int64_t>(kSize),
                            "size of the region");
         judge.expect(region.size() == kSize && std::equal(region.begin(), region.end(), content_.begin()),
-                     "the region does not hold what was stored in it");
+                     "the region does not contain the stored data");
     }
 
     std::unique_ptr<StorageRig> rig_;
@@ -198,18 +198,18 @@ Rules<StorageSubject> make_rules() {
         {"open", kRequirement, is_closed, [](StorageSubject& subject, Judge& judge) { subject.open(judge); }},
         make_write("write records", &write_records),
         make_write("write bytes at the ends", &write_spare),
-        {"open what is open", kRequirement, is_open,
+        {"open an open region", kRequirement, is_open,
          [](StorageSubject& subject, Judge& judge) { subject.open_again(judge); }},
         {"open as another user", kRequirement, is_open,
          [](StorageSubject& subject, Judge& judge) { subject.open_as_another(judge); }},
         {"close", kRequirement, is_open, [](StorageSubject& subject, Judge& judge) { subject.close(judge); }},
-        make_wrong("open with a byte too few", kSize - 1U),
-        make_wrong("open with a byte too many", kSize + 1U),
-        make_wrong("open with no size", 0U),
+        make_wrong("open with one byte too few", kSize - 1U),
+        make_wrong("open with one byte too many", kSize + 1U),
+        make_wrong("open with size 0", 0U),
         make_crash("crash after a record", &write_records),
-        make_crash("crash in the middle of a record", &write_torn),
-        {"foreign content", kRequirement, is_open,
-         [](StorageSubject& subject, Judge& judge) { subject.find_foreign(judge); }},
+        make_crash("crash during a record", &write_torn),
+        {"unexpected content", kRequirement, is_open,
+         [](StorageSubject& subject, Judge& judge) { subject.reject_unexpected(judge); }},
     };
 }
 

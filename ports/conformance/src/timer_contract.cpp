@@ -21,18 +21,18 @@ constexpr const char* kRequirement = "SWR-CNF-011";
 
 constexpr Duration kFrame = 8_ms;
 constexpr Duration kBudget = 2_ms;
-constexpr Duration kSlow = 5_ms;  ///< beyond the budget, the window, and the opening of the next one
+constexpr Duration kSlow = 5_ms;  ///< longer than the budget and the window; ends after the next window start
 constexpr std::array<Duration, TimerRig::kWindowCount> kOffsets{0_ms, 4_ms};
-constexpr int kPatience = 60'000;  ///< milliseconds for slow work to come back, as in host_subject.cpp
+constexpr int kPatience = 60'000;  ///< maximum wait for slow work [ms], as in host_subject.cpp
 constexpr std::size_t kOpeningsMax = 16U;
 
-/// An opening as its component saw it.
+/// A window instance as its component observed it.
 struct Opening {
     Instant planned{};
     Instant seen{};
 };
 
-/// Notes when it runs. Its notes are read when its work has returned.
+/// Records when it runs. The records are read after its work has returned.
 class Witness final : public Component {
   public:
     explicit Witness(const char* name) noexcept : Component(name) {}
@@ -85,7 +85,7 @@ class TimerSubject final {
     void run(std::uint64_t frame_count, Judge& judge) {
         const TimerRig::Counts before = rig_->get_counts();
         rig_->run(frame_count);
-        judge.expect(wait_for_return(), "work that was late never returned");
+        judge.expect(wait_for_return(), "late work never returned");
         const TimerRig::Counts counts = rig_->get_counts();
         const std::array<std::vector<Opening>, TimerRig::kWindowCount> seen{first_.take(), second_.take()};
         for (std::size_t window = 0U; window < seen.size(); ++window) {
@@ -96,10 +96,12 @@ class TimerSubject final {
         const std::uint64_t missed = counts.missed - before.missed;
         const std::uint64_t overran = counts.overran - before.overran;
         const std::uint64_t wanted = frame_count * TimerRig::kWindowCount;
-        judge.expect(ran + missed <= wanted, "a window opened more than once in a frame");
-        judge.expect(ran + missed + overran >= wanted, "a window did not open, and was not told as missed");
+        judge.expect(ran + missed <= wanted, "a window started more than once in a major frame");
+        judge.expect(ran + missed + overran >= wanted,
+                     "a window did not start and was not reported as skipped");
         if (rig_->is_exact()) {
-            judge.expect_equal(static_cast<std::int64_t>(ran), static_cast<std::int64_t>(wanted), "openings");
+            judge.expect_equal(static_cast<std::int64_t>(ran), static_cast<std::int64_t>(wanted),
+                               "window instances");
             judge.expect_equal(static_cast<std::int64_t>(overran),
                                is_slow() ? static_cast<std::int64_t>(frame_count) : 0, "overruns");
         }
@@ -111,23 +113,23 @@ class TimerSubject final {
         return (planned - Instant{0} - kOffsets.at(window)).ns / kFrame.ns;
     }
 
-    /// Each at its place, in order, and not before its time.
+    /// Checks that each window starts on the schedule, in order, and not before its instant.
     void check_grid(std::size_t window, const std::vector<Opening>& openings, Judge& judge) const {
         Instant last = last_;
         for (const Opening& opening : openings) {
             const Duration since = opening.planned - Instant{0} - kOffsets.at(window);
             judge.expect(since >= Duration{0} && since.ns % kFrame.ns == 0,
-                         "a window opened beside the grid");
-            judge.expect(opening.planned > last, "a window opened twice in a frame, or out of order");
-            judge.expect(opening.seen >= opening.planned, "a window opened before its instant");
+                         "a window started at an instant that is not on the schedule");
+            judge.expect(opening.planned > last, "a window started twice in a major frame or out of order");
+            judge.expect(opening.seen >= opening.planned, "a window started before its instant");
             if (rig_->is_exact()) {
-                judge.expect_equal(opening.seen, opening.planned, "a window did not open at its instant");
+                judge.expect_equal(opening.seen, opening.planned, "a window did not start at its instant");
             }
             last = opening.planned;
         }
     }
 
-    /// All in as many frames as were asked for, behind those of the run before.
+    /// Checks that all windows are in the requested number of major frames, after those of the previous run.
     void check_span(const std::array<std::vector<Opening>, TimerRig::kWindowCount>& seen,
                     std::uint64_t frame_count, Judge& judge) {
         std::vector<std::int64_t> frames;
@@ -142,9 +144,9 @@ class TimerSubject final {
         }
         const auto [lowest, highest] = std::minmax_element(frames.begin(), frames.end());
         judge.expect(*highest - *lowest < static_cast<std::int64_t>(frame_count),
-                     "windows of more frames opened than were asked for");
+                     "more major frames ran than requested");
         if (rig_->is_exact()) {
-            judge.expect_equal(*lowest, frame_ + 1, "first frame");
+            judge.expect_equal(*lowest, frame_ + 1, "first major frame");
         }
         frame_ = *highest;
     }
@@ -169,7 +171,7 @@ class TimerSubject final {
     Instant last_{-1};
     std::int64_t frame_{-1};
     bool has_run_{false};
-    std::unique_ptr<TimerRig> rig_;  ///< goes first: it may have to wait for work
+    std::unique_ptr<TimerRig> rig_;  ///< destroyed first, since it can wait for work
 };
 
 Rule<TimerSubject> make_run(const char* name, std::uint64_t frame_count, bool is_slow) {
@@ -180,13 +182,13 @@ Rule<TimerSubject> make_run(const char* name, std::uint64_t frame_count, bool is
 
 Rules<TimerSubject> make_rules() {
     return {
-        make_run("one frame", 1U, false),
-        make_run("four frames", 4U, false),
+        make_run("one major frame", 1U, false),
+        make_run("four major frames", 4U, false),
         {"the first component becomes slow", kRequirement,
          [](const TimerSubject& subject) { return !subject.is_slow(); },
          [](TimerSubject& subject, Judge&) { subject.set_time(kSlow); }},
-        make_run("one frame with a slow component", 1U, true),
-        make_run("four frames with a slow component", 4U, true),
+        make_run("one major frame with a slow component", 1U, true),
+        make_run("four major frames with a slow component", 4U, true),
         {"the first component is fast again", kRequirement,
          [](const TimerSubject& subject) { return subject.is_slow(); },
          [](TimerSubject& subject, Judge&) { subject.set_time(Duration{0}); }},

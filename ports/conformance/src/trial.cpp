@@ -52,7 +52,7 @@ void Judge::expect(bool holds, const char* sentence) {
 void Judge::expect_equal(std::int64_t actual, std::int64_t expected, const char* sentence) {
     if (actual != expected && finding_.empty()) {
         finding_ =
-            std::string{sentence} + ": " + std::to_string(actual) + " instead of " + std::to_string(expected);
+            std::string{sentence} + ": " + std::to_string(actual) + ", expected " + std::to_string(expected);
     }
 }
 

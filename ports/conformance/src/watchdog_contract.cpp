@@ -10,9 +10,9 @@ namespace {
 
 constexpr const char* kRequirement = "SWR-CNF-006";
 
-/// The model knows between which two readings of the clock the last service happened. Where time is simulated
-/// both are one instant, and the model knows the answer; else it knows the answer unless the limit lies
-/// between what may have passed and what must have passed.
+/// The model knows the two clock readings around the last service. With simulated time, both are equal, and
+/// the expected result is exact. Otherwise, the result is not checked if the timeout is between the minimum
+/// and the maximum elapsed time.
 class WatchdogSubject final {
   public:
     enum class State : std::uint8_t { kSilent, kRunning, kExpired };
@@ -20,7 +20,7 @@ class WatchdogSubject final {
     explicit WatchdogSubject(RigFactory<WatchdogRig> make_rig)
         : make_rig_(std::move(make_rig)), rig_(make_rig_()) {}
 
-    /// Power off and on: nothing else closes an open relay.
+    /// Simulates a power cycle, which is the only action that closes an open relay.
     void replace(Judge& judge) {
         rig_.reset();
         rig_ = make_rig_();
@@ -36,12 +36,12 @@ class WatchdogSubject final {
         const Status status = rig_->get_watchdog().service(before);
         const Instant after = rig_->get_now();
         if (must_have_expired(before)) {
-            judge.expect(status == Status::kError, "a service was taken though the relay is open");
+            judge.expect(status == Status::kError, "a service was accepted though the relay is open");
             state_ = State::kExpired;
         } else if (may_have_expired(after) && status != Status::kOk) {
             state_ = State::kExpired;
         } else {
-            judge.expect(status == Status::kOk, "a service that came in time was refused");
+            judge.expect(status == Status::kOk, "a service in time was rejected");
             state_ = State::kRunning;
             serviced_from_ = before;
             serviced_until_ = after;
@@ -54,14 +54,15 @@ class WatchdogSubject final {
         const Instant before = rig_->get_now();
         const bool is_open = rig_->has_expired();
         const Instant after = rig_->get_now();
-        judge.expect(is_open || !must_have_expired(before), "the relay is closed though the time is over");
-        judge.expect(!is_open || may_have_expired(after), "the relay opened before the time was over");
+        judge.expect(is_open || !must_have_expired(before),
+                     "the relay is closed though the timeout has elapsed");
+        judge.expect(!is_open || may_have_expired(after), "the relay opened before the timeout");
         state_ = is_open ? State::kExpired : state_;
     }
 
     void pass(Duration time) { rig_->let_pass(time); }
 
-    /// Lets pass what is left of the timeout, and `more`.
+    /// Waits for the rest of the timeout plus `more`.
     void pass_to_limit(Duration more) {
         const Duration left = serviced_until_ + rig_->get_timeout() + more - rig_->get_now();
         rig_->let_pass(left > Duration{0} ? left : Duration{0});
@@ -120,7 +121,7 @@ Rules<WatchdogSubject> make_rules() {
              subject.pass({subject.get_timeout().ns / 4});
              subject.look(judge);
          }},
-        {"the last instant for a service", kRequirement, is_running,
+        {"a service at the last instant", kRequirement, is_running,
          [](WatchdogSubject& subject, Judge& judge) {
              subject.pass_to_limit(0_ns);
              subject.look(judge);
@@ -131,9 +132,9 @@ Rules<WatchdogSubject> make_rules() {
              subject.pass_to_limit(1_ns);
              subject.service(judge);
          }},
-        {"the time runs out", kRequirement, is_running, wait_twice},
-        {"service after the time ran out", kRequirement, is_expired, service},
-        {"time passes after it ran out", kRequirement, is_expired, wait_twice},
+        {"the timeout elapses", kRequirement, is_running, wait_twice},
+        {"service after the timeout", kRequirement, is_expired, service},
+        {"time passes after the timeout", kRequirement, is_expired, wait_twice},
         {"a new watchdog", kRequirement, is_expired,
          [](WatchdogSubject& subject, Judge& judge) { subject.replace(judge); }},
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Work of the host rules and what was seen of it from within: which steps ran, when, and in which order.
+/// Work of the host rules. Its steps record which of them ran, when, and in which order.
 ///
 /// @satisfies SWR-CNF-002, SWR-CNF-005      Design: docs/design/conformance.md#windows
 #ifndef MAMORI_PORTS_CONFORMANCE_SRC_WORK_LOG_HPP
@@ -16,15 +16,14 @@
 
 namespace mamori::ports::conformance {
 
-/// One per window; work that is given up goes on writing here, so it must outlive that.
+/// One log per window. Aborted work continues to write to the log, so the log must outlive this work.
 ///
-/// Thread safety: the entries are plain on purpose. Whoever reads one must be sure, by what the host has
-/// said,
-///                that its step is over; the thread sanitizer tells when the host said so too early. The two
-///                counts may be read at any time and order nothing.
+/// Thread safety: the entries are deliberately not atomic. Read an entry only after the host has reported the
+/// end of its step: if the host reports it too early, the thread sanitizer detects a data race. The two
+/// counts may be read at any time and do not order other accesses.
 class WorkLog final {
   public:
-    /// What a step left, written last of all by the step itself.
+    /// Record of a step, which the step writes at its end.
     struct Entry {
         std::size_t number{0U};
         Instant begin{};
@@ -33,7 +32,7 @@ class WorkLog final {
     };
     static constexpr std::size_t kCapacity = 2U * HostRig::kStepsMax;
 
-    /// Forgets what was. To be called while no work is out. @param[in] steps up to HostRig::kStepsMax.
+    /// Clears the log. Call it while no work runs. @param[in] steps up to HostRig::kStepsMax.
     void prepare(HostRig& rig, std::size_t window, std::size_t first, const std::vector<StepPlan>& steps) {
         rig_ = &rig;
         window_ = window;
@@ -45,14 +44,14 @@ class WorkLog final {
         ended_.store(0U, std::memory_order_relaxed);
     }
 
-    /// To be WindowHost::Work::run.
+    /// Function for WindowHost::Work::run.
     static void run(void* argument, std::size_t begin, std::size_t end) noexcept {
         for (std::size_t number = begin; number < end; ++number) {
             static_cast<WorkLog*>(argument)->run_step(number);
         }
     }
 
-    /// Steps that have begun, those beyond the capacity too.
+    /// Steps that have begun, including those beyond the capacity.
     std::size_t get_begun_count() const noexcept { return begun_.load(std::memory_order_relaxed); }
     std::size_t get_ended_count() const noexcept { return ended_.load(std::memory_order_relaxed); }
     const Entry& get_entry(std::size_t index) const { return entries_.at(index); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the clock rules accept a clock that keeps its contract and report each way to break it. Method:
-// clocks with one flaw each.
+// Goal: the clock rules accept a clock that complies with its contract and report each violation. Method:
+// clocks with one defect each.
 #include "mamori/ports/conformance/clock_contract.hpp"
 
 #include <gtest/gtest.h>
@@ -84,18 +84,18 @@ TEST_P(ClockFlawTest, IsReportedInEachOrder) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, ClockFlawTest,
-    ::testing::Values(FlawCase{ClockFlaw::kGoesBack, false, "the clock went back"},
-                      FlawCase{ClockFlaw::kSetBackByWaiting, false, "the clock went back"},
+    ::testing::Values(FlawCase{ClockFlaw::kGoesBack, false, "the clock ran backwards"},
+                      FlawCase{ClockFlaw::kSetBackByWaiting, false, "the clock ran backwards"},
                       FlawCase{ClockFlaw::kWakesEarly, false, "ended before its instant"},
                       FlawCase{ClockFlaw::kSkipsShortWaits, false, "ended before its instant"},
                       FlawCase{ClockFlaw::kOversleeps, true, "did not end at its instant"},
-                      FlawCase{ClockFlaw::kRunsAlone, true, "time passed though nobody waited"}));
+                      FlawCase{ClockFlaw::kRunsAlone, true, "time passed without a wait"}));
 
-TEST(ClockContractTest, AClockThatKeepsItIsAccepted) {
+TEST(ClockContractTest, ACompliantClockIsAccepted) {
     verifies("SWR-CNF-001", Technique::kEquivalenceClasses);
     EXPECT_TRUE(explore(make(ClockFlaw::kNone, true), 3U).is_kept());
     EXPECT_TRUE(explore(make(ClockFlaw::kNone, false), 3U).is_kept());
-    EXPECT_TRUE(run_in_order(make(ClockFlaw::kOversleeps, false)).is_kept()) << "a busy machine";
+    EXPECT_TRUE(run_in_order(make(ClockFlaw::kOversleeps, false)).is_kept()) << "a busy host";
     EXPECT_TRUE(run_in_order(make(ClockFlaw::kRunsAlone, false)).is_kept()) << "as real time does";
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the host rules accept a host that keeps its contract and report each way to break it. Method: hosts
-// with one flaw each, in simulated time where it can be shown there, else with threads that are really out.
+// Goal: the host rules accept a host that complies with its contract and report each violation. Method: hosts
+// with one defect each, in simulated time if possible, else with real threads.
 #include "mamori/ports/conformance/host_contract.hpp"
 
 #include <gtest/gtest.h>
@@ -51,11 +51,11 @@ TEST_P(HostFlawTest, IsReportedInTheFixedOrderAndInTheShortestWalk) {
 INSTANTIATE_TEST_SUITE_P(
     All, HostFlawTest,
     ::testing::Values(
-        FlawCase{HostFlaw::kClockGoesBack, "SWR-CNF-002", "the clock went back"},
+        FlawCase{HostFlaw::kClockGoesBack, "SWR-CNF-002", "the clock ran backwards"},
         FlawCase{HostFlaw::kRunsStepTwice, "SWR-CNF-002", "ran twice"},
         FlawCase{HostFlaw::kSkipsStep, "SWR-CNF-002", "did not run"},
-        FlawCase{HostFlaw::kRunsBackwards, "SWR-CNF-002", "in another order"},
-        FlawCase{HostFlaw::kIgnoresFirstNumber, "SWR-CNF-002", "in another order"},
+        FlawCase{HostFlaw::kRunsBackwards, "SWR-CNF-002", "the order was wrong"},
+        FlawCase{HostFlaw::kIgnoresFirstNumber, "SWR-CNF-002", "the order was wrong"},
         FlawCase{HostFlaw::kForgetsSecondPass, "SWR-CNF-002", "did not run"},
         FlawCase{HostFlaw::kStepEndsBeforeItBegins, "SWR-CNF-002", "ended before it began"},
         FlawCase{HostFlaw::kCountsCutOffStep, "SWR-CNF-003", "cannot have returned"},
@@ -63,15 +63,15 @@ INSTANTIATE_TEST_SUITE_P(
         FlawCase{HostFlaw::kCountsTooMany, "SWR-CNF-003", "cannot have returned"},
         FlawCase{HostFlaw::kIsGenerous, "SWR-CNF-003", "cannot have returned"},
         FlawCase{HostFlaw::kIgnoresPassedDeadline, "SWR-CNF-003", "cannot have returned"},
-        FlawCase{HostFlaw::kCutsTooEarly, "SWR-CNF-004", "cut off before its deadline"},
-        FlawCase{HostFlaw::kDoesNotCut, "SWR-CNF-004", "ended at another instant"},
+        FlawCase{HostFlaw::kCutsTooEarly, "SWR-CNF-004", "aborted before its deadline"},
+        FlawCase{HostFlaw::kDoesNotCut, "SWR-CNF-004", "did not end at the expected instant"},
         FlawCase{HostFlaw::kNeedsOthersToReturn, "SWR-CNF-004", "steps counted"},
         FlawCase{HostFlaw::kLateStepEndsInTime, "SWR-CNF-004", "did not end after the deadline"},
-        FlawCase{HostFlaw::kRunsAbandonedStepLater, "SWR-CNF-005", "after its work was said to be over"},
+        FlawCase{HostFlaw::kRunsAbandonedStepLater, "SWR-CNF-005", "after the reported end of its work"},
         FlawCase{HostFlaw::kEntersAllAbandonedSteps, "SWR-CNF-005", "more than one further step"},
         FlawCase{HostFlaw::kNeverSaysReturned, "SWR-CNF-005", "never returned"}));
 
-TEST(HostContractTest, AHostThatKeepsItIsAccepted) {
+TEST(HostContractTest, ACompliantHostIsAccepted) {
     verifies("SWR-CNF-003", Technique::kStateTransition);
     EXPECT_EQ(run_in_order(make_exact(HostFlaw::kNone)).to_text().substr(0U, 8U), "28 rules");
     EXPECT_TRUE(run_randomly(make_exact(HostFlaw::kNone), 3U, 5000U).is_kept());
@@ -79,27 +79,27 @@ TEST(HostContractTest, AHostThatKeepsItIsAccepted) {
     EXPECT_TRUE(run_randomly(make_threaded(ThreadFlaw::kNone), 5U, 300U).is_kept());
 }
 
-TEST(HostContractTest, AHangThatIsSaidToBeOverIsReported) {
+TEST(HostContractTest, AFalseReportOfTheEndOfAHangIsReported) {
     verifies("SWR-CNF-005", Technique::kFaultInjection, Polarity::kViolation);
     const Report report = run_in_order(make_threaded(ThreadFlaw::kSaysReturnedTooEarly));
     EXPECT_FALSE(report.is_kept());
 }
 
-TEST(HostContractTest, WorkThatIsGivenUpBeforeItsDeadlineIsReportedByTheClockToo) {
+TEST(HostContractTest, WorkAbortedBeforeItsDeadlineIsReportedInRealTimeToo) {
     verifies("SWR-CNF-004", Technique::kFaultInjection, Polarity::kViolation);
     const Report report = run_in_order(make_threaded(ThreadFlaw::kCutsTooEarly));
     ASSERT_FALSE(report.is_kept());
-    EXPECT_NE(report.findings[0].find("cut off before its deadline"), std::string::npos) << report.to_text();
+    EXPECT_NE(report.findings[0].find("aborted before its deadline"), std::string::npos) << report.to_text();
 }
 
-TEST(HostContractTest, AHangThatIsCountedIsReportedByTheClockToo) {
+TEST(HostContractTest, ACountedHangIsReportedInRealTimeToo) {
     verifies("SWR-CNF-003", Technique::kFaultInjection, Polarity::kViolation);
     const Report report = run_in_order(make_threaded(ThreadFlaw::kCountsWhatHangs));
     ASSERT_FALSE(report.is_kept());
     EXPECT_NE(report.findings[0].find("cannot have returned"), std::string::npos) << report.to_text();
 }
 
-TEST(HostContractTest, AStepThatRunsTwiceIsReportedByTheClockToo) {
+TEST(HostContractTest, AStepThatRunsTwiceIsReportedInRealTimeToo) {
     verifies("SWR-CNF-002", Technique::kFaultInjection, Polarity::kViolation);
     const Report report = run_in_order(make_threaded(ThreadFlaw::kRunsStepTwice));
     ASSERT_FALSE(report.is_kept());

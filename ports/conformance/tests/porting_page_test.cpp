@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: what docs/manual/porting.md shows compiles and accepts a clock. Method: its code blocks, word by
-// word; verification/checks/manual_samples.py compares the two.
+// Goal: the code of docs/manual/porting.md compiles and accepts a clock. Method: a copy of its code blocks;
+// verification/checks/manual_samples.py compares both.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -23,7 +23,7 @@ class MyClockRig final : public conformance::ClockRig {
     MyClock clock_;
 };
 
-TEST(PortingPageTest, TheClockOfThePageKeepsItsContract) {
+TEST(PortingPageTest, TheClockOfThePageIsCompliant) {
     mamori::verification::verifies("SWR-CNF-008", mamori::verification::Technique::kInterface);
 
     const auto trials = conformance::make_clock_trials([] { return std::make_unique<MyClockRig>(); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the runners apply what may be applied, find what a rule finds, and say how to see it again. Method: a
-// trial whose port is a number.
+// Goal: the runners apply rules whose preconditions hold, report the findings of the rules, and report how to
+// reproduce them. Method: a trial whose port is a number.
 #include "mamori/ports/conformance/rule_runner.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ void add_one(Number& number, Judge&) {
     ++number.value;
 }
 
-/// Up and down within 0 .. 3; `limit` is what the number must not reach.
+/// Increments and decrements within 0 .. 3; reports a finding when the number reaches `limit`.
 Rules<Number> make_steps(int limit) {
     return {{"down", "SWR-A-001", [](const Number& number) { return number.value > 0; },
              [](Number& number, Judge&) { --number.value; }},
@@ -42,7 +42,7 @@ TrialFactory make(const Rules<Number>& rules) {
     };
 }
 
-TEST(RuleRunnerTest, TheFixedOrderWaitsForAPreconditionAndRunsEachRule) {
+TEST(RuleRunnerTest, TheFixedOrderRespectsPreconditionsAndRunsEachRule) {
     verifies("SWR-CNF-008", Technique::kStateTransition);
     const Report report = run_in_order(make(make_steps(10)));
 
@@ -53,7 +53,7 @@ TEST(RuleRunnerTest, TheFixedOrderWaitsForAPreconditionAndRunsEachRule) {
     EXPECT_EQ(report.to_text(), "2 rules, 1 sequences, 2 steps, 2 states\n");
 }
 
-TEST(RuleRunnerTest, TheFixedOrderRepeatsRulesWhereOneNeedsIt) {
+TEST(RuleRunnerTest, TheFixedOrderRepeatsRulesIfAPreconditionRequiresIt) {
     verifies("SWR-CNF-008", Technique::kBoundaryValues);
     Rules<Number> rules = make_steps(10);
     rules.push_back({"at three", "SWR-A-003", [](const Number& number) { return number.value == 3; },
@@ -63,7 +63,7 @@ TEST(RuleRunnerTest, TheFixedOrderRepeatsRulesWhereOneNeedsIt) {
     EXPECT_TRUE(run_in_order(make(rules)).is_kept());
 }
 
-TEST(RuleRunnerTest, ASeedGivesTheSameWalkAgainAndAnotherSeedAnotherOne) {
+TEST(RuleRunnerTest, ASeedReproducesItsSequenceAndAnotherSeedGivesAnother) {
     verifies("SWR-CNF-008", Technique::kBackToBack);
     const std::string first = run_randomly(make(make_steps(3)), 7U, 1000U).to_text();
 
@@ -71,29 +71,29 @@ TEST(RuleRunnerTest, ASeedGivesTheSameWalkAgainAndAnotherSeedAnotherOne) {
     EXPECT_NE(run_randomly(make(make_steps(3)), 8U, 1000U).to_text(), first);
 }
 
-TEST(RuleRunnerTest, AFindingNamesSeedWalkRuleAndRequirementAndIsTheLast) {
+TEST(RuleRunnerTest, AFindingNamesSeedSequenceRuleAndRequirementAndEndsTheRun) {
     verifies("SWR-CNF-008", Technique::kErrorGuessing, Polarity::kViolation);
     const Report report = run_randomly(make(make_steps(1)), 7U, 1000U);
 
     ASSERT_EQ(report.findings.size(), 1U);
     EXPECT_EQ(report.findings[0],
-              "random order, seed 7, after 1 steps: rule 'up' (SWR-A-002): too high; walk: 1");
+              "random order, seed 7, after 1 steps: rule 'up' (SWR-A-002): too high; sequence: 1");
     EXPECT_EQ(report.step_count, 1U);
     EXPECT_EQ(report.to_text(), report.findings[0] + "\n  0 down\n  1 up\n");
 }
 
-TEST(RuleRunnerTest, AWalkIsAppliedAgain) {
+TEST(RuleRunnerTest, ASequenceIsReplayed) {
     verifies("SWR-CNF-008", Technique::kEquivalenceClasses);
     EXPECT_TRUE(replay(make(make_steps(3)), {1U, 0U, 1U}).is_kept());
     EXPECT_TRUE(replay(make(make_steps(3)), {}).is_kept());
     EXPECT_EQ(replay(make(make_steps(3)), {1U, 1U, 1U}).findings.at(0),
-              "replay, after 3 steps: rule 'up' (SWR-A-002): too high; walk: 1 1 1");
+              "replay, after 3 steps: rule 'up' (SWR-A-002): too high; sequence: 1 1 1");
 }
 
-TEST(RuleRunnerTest, AWalkThatCannotBeAppliedIsAFinding) {
+TEST(RuleRunnerTest, AnInapplicableSequenceIsAFinding) {
     verifies("SWR-CNF-008", Technique::kErrorGuessing, Polarity::kViolation);
     EXPECT_EQ(replay(make(make_steps(3)), {0U}).findings.at(0),
-              "replay, after 0 steps: rule 0 cannot be applied here; walk:");
+              "replay, after 0 steps: rule 0 is not applicable here; sequence:");
     EXPECT_FALSE(replay(make(make_steps(3)), {2U}).is_kept());
 }
 
@@ -109,23 +109,23 @@ TEST(RuleRunnerTest, ARuleThatNeverRanIsAFindingInEachOrder) {
     }
 }
 
-TEST(RuleRunnerTest, AStateWithoutAWayOnIsAFinding) {
+TEST(RuleRunnerTest, AStateWithoutApplicableRuleIsAFinding) {
     verifies("SWR-CNF-009", Technique::kErrorGuessing, Polarity::kViolation);
     Rules<Number> rules = make_steps(10);
     rules.erase(rules.begin());
 
     EXPECT_EQ(run_randomly(make(rules), 1U, 100U).findings.at(0),
-              "random order, seed 1, after 3 steps: no rule can be applied in the state 3; walk: 0 0 0");
+              "random order, seed 1, after 3 steps: no rule is applicable in state 3; sequence: 0 0 0");
     EXPECT_FALSE(explore(make(rules), 4U).is_kept());
     EXPECT_TRUE(explore(make(rules), 3U).is_kept());
 }
 
-TEST(RuleRunnerTest, AllRulesThatRanAreNoFinding) {
+TEST(RuleRunnerTest, WithoutMissingRulesThereIsNoFinding) {
     verifies("SWR-CNF-009");
     EXPECT_TRUE(run_randomly(make(make_steps(10)), 1U, 100U).is_kept());
 }
 
-TEST(RuleRunnerTest, EveryOrderIsTriedOnce) {
+TEST(RuleRunnerTest, EveryOrderIsAppliedOnce) {
     verifies("SWR-CNF-010", Technique::kBoundaryValues);
     const Rules<Number> rules{{"a", "SWR-A-001", &is_always, &add_one},
                               {"b", "SWR-A-002", &is_always, &add_one},
@@ -137,16 +137,16 @@ TEST(RuleRunnerTest, EveryOrderIsTriedOnce) {
     EXPECT_EQ(explore(make(make_steps(10)), 3U).to_text(), "2 rules, 3 sequences, 9 steps, 4 states\n");
 }
 
-TEST(RuleRunnerTest, AFindingInEveryOrderShowsOneOfTheShortestWalks) {
+TEST(RuleRunnerTest, AFindingInEveryOrderShowsAShortestSequence) {
     verifies("SWR-CNF-010", Technique::kErrorGuessing, Polarity::kViolation);
     const Report report = explore(make(make_steps(2)), 9U);
 
     ASSERT_EQ(report.findings.size(), 1U);
     EXPECT_EQ(report.findings[0],
-              "every order, depth 2, after 2 steps: rule 'up' (SWR-A-002): too high; walk: 1 1");
+              "every order, depth 2, after 2 steps: rule 'up' (SWR-A-002): too high; sequence: 1 1");
 }
 
-TEST(RuleRunnerTest, AChoiceOfRulesIsTriedAsIfThereWereNoOthers) {
+TEST(RuleRunnerTest, SelectedRulesAreAppliedWithoutTheOthers) {
     verifies("SWR-CNF-010", Technique::kEquivalenceClasses);
     const TrialFactory up = select_rules(make(make_steps(10)), {"up"});
 
@@ -155,13 +155,13 @@ TEST(RuleRunnerTest, AChoiceOfRulesIsTriedAsIfThereWereNoOthers) {
     EXPECT_EQ(run_in_order(select_rules(make(make_steps(10)), {"up", "down"})).rules.size(), 2U);
 }
 
-TEST(RuleRunnerTest, AChoiceThatNamesNoRuleEndsInTheAssertion) {
+TEST(RuleRunnerTest, AnUnknownRuleNameIsAContractViolation) {
     verifies("SWR-CNF-010", Technique::kErrorGuessing, Polarity::kViolation);
     EXPECT_CHECK_FAILS(static_cast<void>(select_rules(make(make_steps(10)), {"u"})()), "trial.cpp", 1);
     EXPECT_CHECK_FAILS(static_cast<void>(select_rules(make(make_steps(10)), {})()), "trial.cpp", 1);
 }
 
-TEST(RuleRunnerTest, APortThatAnswersOtherwiseTheSecondTimeIsAFinding) {
+TEST(RuleRunnerTest, ANondeterministicPortIsAFinding) {
     verifies("SWR-CNF-010", Technique::kFaultInjection, Polarity::kViolation);
     int trials = 0;
     Rules<Number> rules = make_steps(10);
@@ -176,7 +176,7 @@ TEST(RuleRunnerTest, APortThatAnswersOtherwiseTheSecondTimeIsAFinding) {
         2U);
 
     ASSERT_FALSE(report.is_kept());
-    EXPECT_NE(report.findings[0].find("led to another state"), std::string::npos) << report.to_text();
+    EXPECT_NE(report.findings[0].find("led to a different state"), std::string::npos) << report.to_text();
 }
 
 }  // namespace

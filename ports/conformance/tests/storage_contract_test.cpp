@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the storage rules accept a storage that keeps its contract and report each way to break it. Method:
-// memory of the test as the storage, with one flaw each.
+// Goal: the storage rules accept a storage that complies with its contract and report each violation. Method:
+// storages in memory with one defect each.
 #include "mamori/ports/conformance/storage_contract.hpp"
 
 #include <gtest/gtest.h>
@@ -123,21 +123,21 @@ TEST_P(StorageFlawTest, IsReportedInEachOrder) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, StorageFlawTest,
-    ::testing::Values(FlawCase{StorageFlaw::kLosesAWrite, "does not hold what was stored"},
-                      FlawCase{StorageFlaw::kForgetsAtClose, "does not hold what was stored"},
-                      FlawCase{StorageFlaw::kForgetsAtCrash, "does not hold what was stored"},
-                      FlawCase{StorageFlaw::kTearsAtCrash, "does not hold what was stored"},
-                      FlawCase{StorageFlaw::kBeginsDirty, "does not hold what was stored"},
+    ::testing::Values(FlawCase{StorageFlaw::kLosesAWrite, "does not contain the stored data"},
+                      FlawCase{StorageFlaw::kForgetsAtClose, "does not contain the stored data"},
+                      FlawCase{StorageFlaw::kForgetsAtCrash, "does not contain the stored data"},
+                      FlawCase{StorageFlaw::kTearsAtCrash, "does not contain the stored data"},
+                      FlawCase{StorageFlaw::kBeginsDirty, "does not contain the stored data"},
                       FlawCase{StorageFlaw::kTakesAnySize, "another size was opened"},
-                      FlawCase{StorageFlaw::kTakesNoSize, "a size of nothing"},
-                      FlawCase{StorageFlaw::kRefusesWithoutCare, "does not hold what was stored"},
+                      FlawCase{StorageFlaw::kTakesNoSize, "size 0 is a bad parameter"},
+                      FlawCase{StorageFlaw::kRefusesWithoutCare, "does not contain the stored data"},
                       FlawCase{StorageFlaw::kOpensTwice, "opened twice"},
                       FlawCase{StorageFlaw::kHasTwoUsers, "a second user"},
                       FlawCase{StorageFlaw::kGivesANarrowerRegion, "size of the region"},
-                      FlawCase{StorageFlaw::kStaysReachable, "can still be reached"},
-                      FlawCase{StorageFlaw::kRefusesWhatIsThere, "can be opened was refused"}));
+                      FlawCase{StorageFlaw::kStaysReachable, "is still accessible"},
+                      FlawCase{StorageFlaw::kRefusesWhatIsThere, "a valid region was rejected"}));
 
-TEST(StorageContractTest, AStorageThatKeepsItIsAcceptedInEachOrder) {
+TEST(StorageContractTest, ACompliantStorageIsAcceptedInEachOrder) {
     verifies("SWR-CNF-007", Technique::kStateTransition);
     EXPECT_TRUE(run_in_order(make(StorageFlaw::kNone)).is_kept());
     EXPECT_TRUE(run_randomly(make(StorageFlaw::kNone), 1U, 2000U).is_kept());

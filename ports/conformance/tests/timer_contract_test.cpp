@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the timer rules accept a timer that keeps its contract and report each way to break it. Method: a
-// timer in simulated time with one flaw each.
+// Goal: the timer rules accept a timer that complies with its contract and report each violation. Method:
+// timers in simulated time with one defect each.
 #include "mamori/ports/conformance/timer_contract.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ enum class TimerFlaw {
     kRunsOneMore
 };
 
-/// Runs work on the spot, in the time that the test says.
+/// Runs work immediately, with the execution time that the test specifies.
 class SpotHost final : public WindowHost {
   public:
     Instant get_now() const noexcept override { return now; }
@@ -50,7 +50,7 @@ class SpotHost final : public WindowHost {
     Instant now{};
     Instant step_end{};
     Duration time_of_first{};
-    Duration early{};  ///< by which the clock shows less within the work
+    Duration early{};  ///< amount by which the clock is early during the work
 };
 
 class FlawedTimer final : public TimerRig {
@@ -133,22 +133,22 @@ TEST_P(TimerFlawTest, IsReportedInEachOrder) {
     EXPECT_FALSE(explore(factory, 3U).is_kept());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TimerFlawTest,
-                         ::testing::Values(FlawCase{TimerFlaw::kDrifts, "opened beside the grid"},
-                                           FlawCase{TimerFlaw::kWorksEarly, "opened before its instant"},
-                                           FlawCase{TimerFlaw::kOpensLate, "did not open at its instant"},
-                                           FlawCase{TimerFlaw::kSkipsAfterOverrun,
-                                                    "openings: 1 instead of 2"},
-                                           FlawCase{TimerFlaw::kOpensTwice, "opened twice in a frame"},
-                                           FlawCase{TimerFlaw::kGoesBack, "out of order"},
-                                           FlawCase{TimerFlaw::kRunsOneMore, "windows of more frames"}));
+INSTANTIATE_TEST_SUITE_P(
+    All, TimerFlawTest,
+    ::testing::Values(FlawCase{TimerFlaw::kDrifts, "started at an instant that is not on the schedule"},
+                      FlawCase{TimerFlaw::kWorksEarly, "started before its instant"},
+                      FlawCase{TimerFlaw::kOpensLate, "did not start at its instant"},
+                      FlawCase{TimerFlaw::kSkipsAfterOverrun, "window instances: 1, expected 2"},
+                      FlawCase{TimerFlaw::kOpensTwice, "started twice in a major frame"},
+                      FlawCase{TimerFlaw::kGoesBack, "out of order"},
+                      FlawCase{TimerFlaw::kRunsOneMore, "more major frames ran"}));
 
-TEST(TimerContractTest, ATimerThatOpensEarlyEndsInTheAssertionOfTheKernel) {
+TEST(TimerContractTest, ATimerThatStartsWindowsEarlyFailsACheckOfTheKernel) {
     verifies("SWR-CNF-011", Technique::kErrorGuessing, Polarity::kViolation);
     EXPECT_CHECK_FAILS(static_cast<void>(run_in_order(make(TimerFlaw::kOpensEarly))), "executive.cpp", 3);
 }
 
-TEST(TimerContractTest, ATimerThatKeepsItIsAcceptedInEachOrder) {
+TEST(TimerContractTest, ACompliantTimerIsAcceptedInEachOrder) {
     verifies("SWR-CNF-011", Technique::kStateTransition);
     EXPECT_TRUE(run_randomly(make(TimerFlaw::kNone), 1U, 2000U).is_kept());
     EXPECT_EQ(explore(make(TimerFlaw::kNone), 8U).to_text(),

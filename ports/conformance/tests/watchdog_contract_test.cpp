@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the watchdog rules accept a watchdog that keeps its contract and report each way to break it. Method:
-// watchdogs with one flaw each, in simulated time and in a time that also passes between two readings.
+// Goal: the watchdog rules accept a watchdog that complies with its contract and report each violation.
+// Method: watchdogs with one defect each, in simulated time and in a time that also passes between two
+// readings.
 #include "mamori/ports/conformance/watchdog_contract.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ enum class WatchdogFlaw {
 
 class FlawedWatchdog final : public WatchdogRig, public safety::Watchdog {
   public:
-    /// @param[in] step time that each reading of the clock takes.
+    /// @param[in] step time of each reading of the clock.
     FlawedWatchdog(WatchdogFlaw flaw, Duration step) : flaw_(flaw), step_(step) {}
 
     safety::Watchdog& get_watchdog() override { return *this; }
@@ -111,16 +112,16 @@ TEST_P(WatchdogFlawTest, IsReportedInEachOrder) {
 INSTANTIATE_TEST_SUITE_P(
     All, WatchdogFlawTest,
     ::testing::Values(
-        FlawCase{WatchdogFlaw::kStartsByItself, "opened before the time was over"},
-        FlawCase{WatchdogFlaw::kBitesEarly, "opened before the time was over"},
-        FlawCase{WatchdogFlaw::kBitesLate, "a service was taken though the relay is open"},
-        FlawCase{WatchdogFlaw::kNeverBites, "a service was taken though the relay is open"},
-        FlawCase{WatchdogFlaw::kClosesAgain, "a service was taken though the relay is open"},
-        FlawCase{WatchdogFlaw::kTakesServiceWhenOpen, "a service was taken though the relay is open"},
-        FlawCase{WatchdogFlaw::kLateServiceHidesIt, "a service was taken though the relay is open"},
-        FlawCase{WatchdogFlaw::kRefusesInTime, "a service that came in time was refused"}));
+        FlawCase{WatchdogFlaw::kStartsByItself, "opened before the timeout"},
+        FlawCase{WatchdogFlaw::kBitesEarly, "opened before the timeout"},
+        FlawCase{WatchdogFlaw::kBitesLate, "a service was accepted though the relay is open"},
+        FlawCase{WatchdogFlaw::kNeverBites, "a service was accepted though the relay is open"},
+        FlawCase{WatchdogFlaw::kClosesAgain, "a service was accepted though the relay is open"},
+        FlawCase{WatchdogFlaw::kTakesServiceWhenOpen, "a service was accepted though the relay is open"},
+        FlawCase{WatchdogFlaw::kLateServiceHidesIt, "a service was accepted though the relay is open"},
+        FlawCase{WatchdogFlaw::kRefusesInTime, "a service in time was rejected"}));
 
-TEST(WatchdogContractTest, AWatchdogThatKeepsItIsAcceptedInEachOrder) {
+TEST(WatchdogContractTest, ACompliantWatchdogIsAcceptedInEachOrder) {
     verifies("SWR-CNF-006", Technique::kStateTransition);
     for (const Duration step : {0_ns, 1_ns, 300_ns}) {
         EXPECT_TRUE(run_in_order(make(WatchdogFlaw::kNone, step)).is_kept());
@@ -128,7 +129,7 @@ TEST(WatchdogContractTest, AWatchdogThatKeepsItIsAcceptedInEachOrder) {
     }
 }
 
-TEST(WatchdogContractTest, ATimeThatPassesMeanwhileHidesNoGrossFlaw) {
+TEST(WatchdogContractTest, TimeThatPassesDuringReadingsHidesNoLargeDefect) {
     verifies("SWR-CNF-006", Technique::kErrorGuessing, Polarity::kViolation);
     for (const WatchdogFlaw flaw :
          {WatchdogFlaw::kStartsByItself, WatchdogFlaw::kNeverBites, WatchdogFlaw::kClosesAgain,

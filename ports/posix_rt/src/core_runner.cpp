@@ -8,8 +8,9 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-/// End of `count` frames from `start` on, a multiple of the frame. Held one frame before the end of the time
-/// line, so that no instant of a window, nor the search for the next one, overflows.
+/// End of `count` major frames from `start`, a multiple of the major frame. At most one major frame before
+/// the end of the time line, so that no instant of a window overflows, nor does the search for the next
+/// window.
 constexpr Instant calc_end(Instant start, Duration frame, std::uint64_t count) noexcept {
     constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
     const std::int64_t left = (kLast - start.ns) / frame.ns - 1;
@@ -25,7 +26,7 @@ void CoreRunner::run(std::uint64_t frame_count, Instant from) noexcept {
     MAMORI_REQUIRE(2, has_publication_margin(executive_.get_view()));
     const std::int64_t frame = executive_.get_view().frame.ns;
     const std::int64_t now = from.ns;
-    // Rounded up without the sum, which could overflow.
+    // Rounds up without the sum, which could overflow.
     const std::int64_t first = now <= 0 ? 0 : (now - 1) / frame + 1;
     if (first > std::numeric_limits<std::int64_t>::max() / frame - 1) {
         return;

@@ -17,9 +17,9 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-/// The plan in force, and storage for the next one.
+/// The active plan, and storage for the next plan.
 std::array<std::optional<CrashPlan>, 2U> plan_storage;
-std::size_t next_plan{0U};  ///< index into it
+std::size_t next_plan{0U};  ///< index into plan_storage
 std::atomic<const CrashPlan*> plan_in_force{nullptr};
 static_assert(std::atomic<const CrashPlan*>::is_always_lock_free);
 std::atomic<bool> is_plan_taken{false};
@@ -29,7 +29,7 @@ void put_in_force(const CrashPlan& plan) noexcept {
     next_plan = 1U - next_plan;
 }
 
-/// Not the function of the C library, which is a place to end a cancelled thread at.
+/// The C library function is not used, since it is a cancellation point.
 void write_back(Span<std::byte> file) noexcept {
     static_cast<void>(::syscall(SYS_msync, file.data(), file.size(), MS_SYNC));
 }
@@ -40,14 +40,14 @@ CrashNote make_note(const CrashPlan& plan, int signal, const siginfo_t& info) no
     note.session = plan.session;
     note.place = get_crash_place();
     note.signal = static_cast<std::uint8_t>(signal);
-    // Linux gives its own causes a number above 0; otherwise the address is no address.
+    // Signals of the kernel have a code above 0. Other signals have no address.
     note.is_sent = info.si_code <= 0;
     note.address = note.is_sent ? 0U : reinterpret_cast<std::uintptr_t>(info.si_addr);
     return note;
 }
 
-/// The signal is blocked until the handler returns, and then ends the process: with the registers of the
-/// crash, which the core holds.
+/// The signal is blocked until the handler returns. Then it ends the process, and the core file contains the
+/// registers of the crash.
 void end_by(int signal) noexcept {
     struct sigaction ordinary{};
     ordinary.sa_handler = SIG_DFL;
@@ -93,7 +93,7 @@ Status CrashHandlers::install(const CrashPlan& wanted) noexcept {
     struct sigaction action{};
     action.sa_sigaction = &on_crash;
     action.sa_flags = SA_SIGINFO | SA_ONSTACK;
-    // A crash inside the handler finds its signal blocked, and Linux ends the process then.
+    // During the handler, the signal is blocked, so Linux ends the process if the handler crashes.
     MAMORI_ENSURE(1, ::sigemptyset(&action.sa_mask) == 0);
     for (const int signal : kCrashSignals) {
         MAMORI_ENSURE(2, ::sigaddset(&action.sa_mask, signal) == 0);

@@ -16,7 +16,7 @@ constexpr std::size_t kSignalOffset = 24U;
 constexpr std::size_t kSentOffset = 25U;
 constexpr std::size_t kCrcOffset = 26U;
 
-/// Lowest byte first, whatever the machine's order is.
+/// Little-endian, on every processor.
 void put(CrashNoteBytes& bytes, std::size_t offset, std::uint64_t value, std::size_t size) noexcept {
     for (std::size_t i = 0U; i < size; ++i) {
         bytes[offset + i] = static_cast<std::uint8_t>((value >> (8U * i)) & 0xFFU);

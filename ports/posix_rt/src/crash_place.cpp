@@ -9,8 +9,8 @@ namespace {
 constexpr std::uint32_t kWindowShift = 16U;
 constexpr std::uint32_t kNothing = 0xFFFF'FFFFU;
 
-/// One word, so that a signal never sees the window of one step and the component of another. The model makes
-/// sure that it is there before a handler asks: no thread takes memory for it at its first use.
+/// One atomic variable, so that a signal handler never reads the window of one step and the component of
+/// another. The TLS model avoids an allocation at the first use in a thread, which is not async-signal-safe.
 [[gnu::tls_model("initial-exec")]] thread_local std::atomic<std::uint32_t> place{kNothing};
 
 std::uint32_t to_half(std::size_t number) noexcept {

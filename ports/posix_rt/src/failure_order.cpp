@@ -12,9 +12,9 @@
 namespace mamori::ports::posix_rt::detail {
 namespace {
 
-/// Numbers of threads; 0: none. Lock-free words: handlers of two threads may meet here.
-std::atomic<pid_t> checking_thread{0};  ///< its failed check is being handled
-std::atomic<pid_t> dying_thread{0};     ///< its crash is being handled
+/// Thread ids; 0: none. Lock-free, since handlers of two threads can run concurrently.
+std::atomic<pid_t> checking_thread{0};  ///< thread with a failed check in its handler
+std::atomic<pid_t> dying_thread{0};     ///< thread with a crash in its handler
 static_assert(std::atomic<pid_t>::is_always_lock_free);
 
 constexpr Duration kPoll{1'000'000};
@@ -23,7 +23,7 @@ pid_t get_self() noexcept {
     return static_cast<pid_t>(::syscall(SYS_gettid));
 }
 
-/// Sleeps, so that a waiting thread of a high priority does not keep the one that it waits for from running.
+/// Sleeps, so that a waiting thread of high priority does not prevent the other thread from running.
 void wait_for(const std::atomic<pid_t>& other, pid_t self) noexcept {
     const TimeSource& clock = get_monotonic_clock();
     const std::int64_t last = clock.read_ns() + kFailurePatience.ns;
@@ -36,13 +36,13 @@ void wait_for(const std::atomic<pid_t>& other, pid_t self) noexcept {
     }
 }
 
-void hold_back(const AssertionRecord&) noexcept {
+void wait_for_first_failure(const AssertionRecord&) noexcept {
     const pid_t self = get_self();
     wait_for(dying_thread, self);
     pid_t first = 0;
     if (!checking_thread.compare_exchange_strong(first, self)) {
         wait_for(checking_thread, self);
-        // Its time is over: the crash that follows this wait need not wait again.
+        // The wait has timed out: the crash after this wait need not wait again.
         static_cast<void>(checking_thread.compare_exchange_strong(first, 0));
     }
 }
@@ -50,12 +50,12 @@ void hold_back(const AssertionRecord&) noexcept {
 }  // namespace
 
 void install_failure_gate() noexcept {
-    set_assertion_gate(&hold_back);
+    set_assertion_gate(&wait_for_first_failure);
 }
 
 bool begin_crash() noexcept {
     const pid_t self = get_self();
-    // The handler of its own failed check is over: it has returned, or is what has crashed.
+    // The handler of the failed check of this thread has returned or has crashed.
     pid_t checking = self;
     static_cast<void>(checking_thread.compare_exchange_strong(checking, 0));
     pid_t first = 0;

@@ -11,20 +11,19 @@
 
 namespace mamori::ports::posix_rt::detail {
 
-/// How long a later failure waits for the first. Closing the outputs takes milliseconds, also over a field
-/// bus; a handler that hangs must not keep the process alive much longer than a supervisor takes to restart
-/// it.
+/// Maximum time that a later failure waits for the first. Closing the outputs takes milliseconds, also over a
+/// field bus. A hanging handler must not delay the restart of the process much.
 inline constexpr Duration kFailurePatience{1'000'000'000};
 
-/// From here on a failed check of a second thread waits while the handler runs for the first. Any thread.
+/// Lets a failed check of a second thread wait while the handler runs for the first thread. Calling context:
+/// any thread.
 void install_failure_gate() noexcept;
 
-/// A crash signal has come to the calling thread. Async-signal-safe.
-/// @return true: it closes the outputs; false: another thread does and has had kFailurePatience for it, or
-/// the
-///         calling thread crashed again in its own handler.
+/// Called when the calling thread has received a crash signal. Async-signal-safe.
+/// @return true: this thread must close the outputs; false: another thread closes them and had
+///         kFailurePatience for this, or the calling thread crashed again in its own handler.
 bool begin_crash() noexcept;
-/// The outputs are closed. Returns when no other thread handles a failed check any more, or after
+/// Called when the outputs are closed. Returns when no other thread handles a failed check, or after
 /// kFailurePatience. Async-signal-safe.
 void wait_for_failed_check() noexcept;
 

@@ -33,8 +33,8 @@ timespec FrameClock::to_timespec(Instant instant) const noexcept {
 }
 
 void FrameClock::wait_until(Instant instant) const noexcept {
-    // A sleep until an instant that has passed takes some 20 us all the same: a runner that catches up has
-    // many.
+    // A sleep until an instant that has passed takes about 20 us. A late runner would lose this time for each
+    // window.
     if (get_now() < instant) {
         source_->wait_until(add_saturating(instant, Duration{epoch_ns_}).ns);
     }

@@ -41,7 +41,7 @@ GridFinding GridCheck::look(const ClockPair& pair) noexcept {
     for (std::size_t core = 0U; core < beats_.size(); ++core) {
         const Instant due = beats_[core].get_due();
         if (due != GridBeat::kNever && pair.watched > add_saturating(due, lateness_)) {
-            rate_.restart();  // the time until everything counts as sound begins anew
+            rate_.restart();  // the time without a violation begins again
             return {GridFault::kOverdue, core, due, pair.watched};
         }
     }
@@ -100,7 +100,7 @@ void* GridWatch::serve(void* argument) noexcept {
     return nullptr;
 }
 
-/// Sleeps by Linux's own clock, whatever is behind the clock of the frames.
+/// Sleeps on CLOCK_MONOTONIC, also if the frame clock has another source.
 void GridWatch::watch() noexcept {
     const TimeSource& own = get_monotonic_clock();
     while (!is_ending_.load(std::memory_order_relaxed)) {

@@ -14,7 +14,7 @@ namespace mamori::ports::posix_rt {
 namespace {
 
 constexpr mode_t kMode = S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH;
-/// Not blocking: a pipe or a device must be refused, not waited for.
+/// Non-blocking, so that a pipe or device is rejected without a wait.
 constexpr int kFlags = O_RDWR | O_CLOEXEC | O_NONBLOCK;
 
 }  // namespace
@@ -26,17 +26,17 @@ const char* describe(MappedFileError error) noexcept {
         case MappedFileError::kCannotOpen:
             return "cannot be opened for writing: check the path, the folder and its permissions";
         case MappedFileError::kNotRegular:
-            return "is no regular file: name a file";
+            return "is not a regular file: specify another path";
         case MappedFileError::kInUse:
-            return "is in use by another program: end that one or name another file";
+            return "is in use by another program: end that program or specify another file";
         case MappedFileError::kWrongSize:
-            return "has another size: move it away or name another file";
+            return "has another size: move it away or specify another file";
         case MappedFileError::kCannotReserve:
-            return "cannot get its space: the device is full, or the file too large for it";
+            return "cannot be allocated: the device is full, or the file is too large for it";
         case MappedFileError::kCannotMap:
             return "cannot be mapped into memory";
     }
-    return "failed for an unknown reason";  // only a corrupted value comes here
+    return "failed for an unknown reason";  // reached with a corrupted value only
 }
 
 Status MappedFile::open(const char* path, std::size_t size) noexcept {
@@ -63,7 +63,7 @@ Status MappedFile::open(const char* path, std::size_t size) noexcept {
     return Status::kError;
 }
 
-/// Opens or creates; one that was created and could not be used goes again.
+/// Opens or creates the file. Removes a created file that could not be used.
 MappedFileError MappedFile::map(const char* path, std::size_t size) noexcept {
     int file = ::open(path, kFlags | O_CREAT | O_EXCL, kMode);
     const bool is_new = file >= 0;
@@ -80,7 +80,7 @@ MappedFileError MappedFile::map(const char* path, std::size_t size) noexcept {
         file_ = file;
         return error;
     }
-    // Whoever came between creation and lock uses the file: it is not ours to remove.
+    // A program that locked the new file before this process uses it, so it must not be removed.
     if (is_new && error != MappedFileError::kInUse) {
         static_cast<void>(::unlink(path));
     }
@@ -102,7 +102,7 @@ MappedFileError MappedFile::take(int file, std::size_t size) noexcept {
         system_error_ = errno;
         return errno == EWOULDBLOCK ? MappedFileError::kInUse : MappedFileError::kCannotOpen;
     }
-    // Asked again: somebody may have sized it before the lock was ours.
+    // Reads the size again: another process could have changed it before the lock.
     if (::fstat(file, &facts) != 0 || (facts.st_size != 0 && facts.st_size != static_cast<off_t>(size))) {
         return MappedFileError::kWrongSize;
     }

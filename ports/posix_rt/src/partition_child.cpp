@@ -15,10 +15,11 @@
 namespace mamori::ports::posix_rt::detail {
 namespace {
 
-/// More capabilities than any kernel knows; a number without one is refused, which is as well.
+/// More numbers than any kernel has capabilities. Linux rejects unused numbers, which is harmless.
 constexpr unsigned long kCapabilityEnd{64UL};
 
-/// Killed with the thread that has started it; the second half is for a thread that has ended already.
+/// Linux kills the process at the end of the thread that started it. The second check detects a thread that
+/// has already ended.
 bool tie_to_parent(const ChildPlan& plan) noexcept {
     return ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ::getppid() == plan.parent;
 }
@@ -42,7 +43,7 @@ bool lower_priority(const PartitionLimits& limits) noexcept {
     return ::sched_setscheduler(0, SCHED_OTHER, &none) == 0 && ::setpriority(PRIO_PROCESS, 0, niceness) == 0;
 }
 
-/// Never higher than it is.
+/// Never raises a limit.
 bool limit(__rlimit_resource_t resource, rlim_t value) noexcept {
     rlimit before{};
     if (::getrlimit(resource, &before) != 0) {
@@ -60,8 +61,8 @@ bool set_limits(const PartitionLimits& limits) noexcept {
            (limits.process_max == 0U || limit(RLIMIT_NPROC, limits.process_max));
 }
 
-/// From the next program on it has no capability and cannot get one. A process that may not give them up has
-/// none to give.
+/// Removes all capabilities of the program and the possibility to get new ones. A process without the
+/// privilege to remove them has none.
 bool drop_capabilities() noexcept {
     for (unsigned long capability = 0UL; capability < kCapabilityEnd; ++capability) {
         static_cast<void>(::prctl(PR_CAPBSET_DROP, capability, 0UL, 0UL, 0UL));
@@ -70,8 +71,8 @@ bool drop_capabilities() noexcept {
     return ::prctl(PR_SET_NO_NEW_PRIVS, 1UL, 0UL, 0UL, 0UL) == 0;
 }
 
-/// When memory runs out, this one goes. A system without the file decides for itself.
-void be_first_in_line() noexcept {
+/// Linux ends this process first when memory is exhausted. Without the file, Linux selects a process.
+void prefer_for_memory_kill() noexcept {
     constexpr char kScore[] = "1000";
     const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
     if (file >= 0) {
@@ -80,15 +81,15 @@ void be_first_in_line() noexcept {
     }
 }
 
-/// By the system call itself: the functions of the library would change the threads of the safety process.
+/// Uses the system calls directly: the library functions would change all threads of the safety process.
 bool become(uid_t user) noexcept {
     return user == PartitionLimits::kSameUser ||
            (::syscall(SYS_setgroups, 0, nullptr) == 0 && ::syscall(SYS_setresgid, user, user, user) == 0 &&
             ::syscall(SYS_setresuid, user, user, user) == 0);
 }
 
-/// Nothing of what the safety process does with signals.
-void forget_signals() noexcept {
+/// Removes the signal settings of the safety process.
+void reset_signals() noexcept {
     for (int signal = 1; signal < NSIG; ++signal) {
         struct sigaction action{};
         action.sa_handler = SIG_DFL;
@@ -99,8 +100,9 @@ void forget_signals() noexcept {
     static_cast<void>(pthread_sigmask(SIG_SETMASK, &none, nullptr));
 }
 
-/// Sends the descriptor of this process to the safety process, before another thread can wait for its end.
-bool introduce(const ChildPlan& plan) noexcept {
+/// Sends the process descriptor of this process to the safety process, before another thread can wait for its
+/// end.
+bool send_descriptor(const ChildPlan& plan) noexcept {
     const int self = static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0));
     if (self < 0) {
         return false;
@@ -121,46 +123,48 @@ bool introduce(const ChildPlan& plan) noexcept {
     return ::sendmsg(plan.report, &message, 0) == static_cast<ssize_t>(sizeof(report));
 }
 
-/// A copy of `file` at `above` or higher, which no program inherits.
-int park(int file, int above) noexcept {
+/// Copies `file` to a number of at least `above`. Programs do not inherit the copy.
+int copy_above(int file, int above) noexcept {
     return ::fcntl(file, F_DUPFD_CLOEXEC, above);
 }
 
-/// The streams and descriptors of the order, /dev/null and the socket; each has a place above all of them
-/// before it gets its own, since two may change places. @return the socket; -1: one is none.
-int hand_over(const ChildPlan& plan) noexcept {
+/// Assigns the numbers of /dev/null and of the streams and descriptors of the order, and moves the socket.
+/// First moves each descriptor above all target numbers, since two descriptors can exchange their numbers.
+/// @return the socket; -1: a descriptor is not open.
+int assign_descriptors(const ChildPlan& plan) noexcept {
     const Span<const int> sources = plan.order.descriptors;
     const int count = static_cast<int>(sources.size());
     const int report_place = kFirstPartitionDescriptor + count;
     const int above = report_place + 1;
-    std::array<int, PartitionOrder::kDescriptorMax> parked{};
+    std::array<int, PartitionOrder::kDescriptorMax> copies{};
     for (std::size_t i = 0U; i < sources.size(); ++i) {
-        parked[i] = park(sources[i], above);
-        if (parked[i] < 0) {
+        copies[i] = copy_above(sources[i], above);
+        if (copies[i] < 0) {
             return -1;
         }
     }
-    const int parked_report = park(plan.report, above);
-    const int nothing = park(::open("/dev/null", O_RDWR | O_CLOEXEC), above);
-    const int output = plan.order.output == kNoStream ? nothing : park(plan.order.output, above);
-    const int errors = plan.order.errors == kNoStream ? nothing : park(plan.order.errors, above);
-    if (parked_report < 0 || nothing < 0 || output < 0 || errors < 0 || ::dup2(nothing, 0) < 0 ||
-        ::dup2(output, 1) < 0 || ::dup2(errors, 2) < 0 ||
-        ::dup3(parked_report, report_place, O_CLOEXEC) < 0) {
+    const int report_copy = copy_above(plan.report, above);
+    const int nothing = copy_above(::open("/dev/null", O_RDWR | O_CLOEXEC), above);
+    const int output = plan.order.output == kNoStream ? nothing : copy_above(plan.order.output, above);
+    const int errors = plan.order.errors == kNoStream ? nothing : copy_above(plan.order.errors, above);
+    if (report_copy < 0 || nothing < 0 || output < 0 || errors < 0 || ::dup2(nothing, 0) < 0 ||
+        ::dup2(output, 1) < 0 || ::dup2(errors, 2) < 0 || ::dup3(report_copy, report_place, O_CLOEXEC) < 0) {
         return -1;
     }
     for (int i = 0; i < count; ++i) {
-        if (::dup2(parked[static_cast<std::size_t>(i)], kFirstPartitionDescriptor + i) < 0) {
+        if (::dup2(copies[static_cast<std::size_t>(i)], kFirstPartitionDescriptor + i) < 0) {
             return -1;
         }
     }
     return ::syscall(SYS_close_range, above, ~0U, 0U) == 0 ? report_place : -1;
 }
 
-/// All before the program. @return why it cannot come to that; `report` is the socket from then on.
+/// All steps before the start of the program.
+/// @return cause of a failure.
+/// @param[in,out] report number of the socket.
 PartitionError prepare(const ChildPlan& plan, int& report) noexcept {
     const PartitionLimits& limits = plan.order.limits;
-    if (!introduce(plan)) {
+    if (!send_descriptor(plan)) {
         return PartitionError::kCannotWatch;
     }
     if (::setsid() < 0 || !lower_priority(limits)) {
@@ -169,19 +173,19 @@ PartitionError prepare(const ChildPlan& plan, int& report) noexcept {
     if (!take_place(limits)) {
         return PartitionError::kCannotPlace;
     }
-    be_first_in_line();
-    const int handed = hand_over(plan);
-    if (handed < 0) {
+    prefer_for_memory_kill();
+    const int assigned = assign_descriptors(plan);
+    if (assigned < 0) {
         return PartitionError::kCannotHandOver;
     }
-    report = handed;
+    report = assigned;
     if (!drop_capabilities() || !set_limits(limits)) {
         return PartitionError::kCannotRestrict;
     }
     if (!become(limits.user)) {
         return PartitionError::kCannotBecome;
     }
-    // Last: whoever becomes another user loses the tie.
+    // Last step, because a change of the user clears the parent-death signal.
     return tie_to_parent(plan) ? PartitionError::kNone : PartitionError::kCannotRestrict;
 }
 
@@ -191,8 +195,8 @@ void become_partition(const ChildPlan& plan) noexcept {
     int report = plan.report;
     PartitionError error = prepare(plan, report);
     if (error == PartitionError::kNone) {
-        forget_signals();
-        // The system takes the strings as they are and changes none.
+        reset_signals();
+        // execve() does not change the strings.
         static_cast<void>(::execve(plan.order.program, const_cast<char* const*>(plan.arguments.data()),
                                    const_cast<char* const*>(plan.environment.data())));
         error = PartitionError::kCannotExecute;

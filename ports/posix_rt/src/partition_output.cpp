@@ -27,7 +27,7 @@ void close_end(int& end) noexcept {
     end = -1;
 }
 
-/// Only the own end does not wait: the two ends of a pipe have flags of their own.
+/// Only the reading end is non-blocking: the two ends of a pipe have separate flags.
 bool open_pipe(int& reading, int& writing) noexcept {
     std::array<int, 2U> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
@@ -96,7 +96,7 @@ std::size_t PartitionOutput::forward_stream(Stream& stream, int target) noexcept
         const std::size_t left = kForwardMax - count;
         const ssize_t length = ::read(stream.reading, part.data(), left < part.size() ? left : part.size());
         if (length <= 0) {
-            break;  // nothing is there; a signal that comes in between leaves it for the next call
+            break;  // no output; after a signal, the next call reads it
         }
         for (std::size_t i = 0U; i < static_cast<std::size_t>(length); ++i) {
             take(stream, part[i], target);

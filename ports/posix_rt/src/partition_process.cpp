@@ -26,7 +26,7 @@ using detail::ChildReport;
 constexpr char kEpochName[] = "MAMORI_EPOCH_NS=";
 constexpr std::size_t kEpochNameLength = sizeof(kEpochName) - 1U;
 constexpr Duration kEndPatience{10'000'000'000};
-/// Of headers that are newer than the oldest ones that compile this file.
+/// Constants that older supported headers do not define.
 constexpr auto kByDescriptor = static_cast<idtype_t>(3);  ///< P_PIDFD, Linux 5.4
 constexpr unsigned int kToGroup{4U};                      ///< PIDFD_SIGNAL_PROCESS_GROUP, Linux 6.9
 
@@ -38,8 +38,9 @@ bool is_valid(const PartitionOrder& order) noexcept {
            order.output >= kNoStream && order.errors >= kNoStream;
 }
 
-/// The strings of this process without an epoch that it may have been given itself, and then its own.
-/// @return false: there are too many.
+/// Copies the environment of this process, except an epoch that it inherited, and adds the epoch of the
+/// order.
+/// @return false: too many entries.
 bool fill_environment(ChildPlan& plan, char* epoch) noexcept {
     std::size_t count = 0U;
     for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
@@ -56,7 +57,7 @@ bool fill_environment(ChildPlan& plan, char* epoch) noexcept {
     return true;
 }
 
-/// Signals wait while two processes share one memory: a handler must not run in the wrong one.
+/// Blocks signals while two processes share one memory, so that no handler runs in the wrong process.
 class SignalsHeldBack final {
   public:
     SignalsHeldBack() noexcept {
@@ -72,9 +73,9 @@ class SignalsHeldBack final {
     sigset_t before_{};
 };
 
-/// A copy of the page tables, as fork() makes it, would cost each thread of this process a fault for each
-/// page that it writes next; so the new process borrows this one's memory until it has a program. The
-/// system's own posix_spawn() does the same, and cannot set the limits.
+/// fork() copies the page tables; afterwards, each thread of this process would have a page fault at its
+/// first write to each page. Therefore, the new process shares the memory of this process until it starts its
+/// program. posix_spawn() does the same but cannot set the limits.
 // NOLINTBEGIN(bugprone-unsafe-functions,cert-msc24-c,cert-msc33-c,clang-analyzer-security.insecureAPI.vfork)
 // NOLINTBEGIN(clang-analyzer-unix.Vfork)
 pid_t spawn(const ChildPlan& plan) noexcept {
@@ -88,8 +89,9 @@ pid_t spawn(const ChildPlan& plan) noexcept {
 // NOLINTEND(clang-analyzer-unix.Vfork)
 // NOLINTEND(bugprone-unsafe-functions,cert-msc24-c,cert-msc33-c,clang-analyzer-security.insecureAPI.vfork)
 
-/// Waits for the next message of the child. @param[in,out] watch its descriptor, when the message has it.
-/// @return false: the other end was closed without one.
+/// Waits for the next message of the child.
+/// @param[in,out] watch set to the process descriptor if the message contains it.
+/// @return false: the socket was closed without a message.
 bool receive(int socket, ChildReport& report, int& watch) noexcept {
     iovec content{&report, sizeof(report)};
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(watch))> control{};
@@ -109,8 +111,8 @@ bool receive(int socket, ChildReport& report, int& watch) noexcept {
     return length == static_cast<ssize_t>(sizeof(report));
 }
 
-/// @param[in] options as for waitid(), without WEXITED. @return false: it is not a child of this process; or
-///            WNOHANG is among them, and it lives.
+/// @param[in] options as for waitid(), without WEXITED.
+/// @return false: not a child of this process, or still running (with WNOHANG).
 bool wait_for(idtype_t kind, id_t child, int options, siginfo_t& end) noexcept {
     int result = -1;
     do {
@@ -120,14 +122,14 @@ bool wait_for(idtype_t kind, id_t child, int options, siginfo_t& end) noexcept {
     return result == 0 && end.si_pid != 0;
 }
 
-/// Whether a child, alive or not waited for yet, holds this number: no other process can get it.
+/// True if a running or zombie child holds this id, so that no other process can have it.
 bool is_held(idtype_t kind, id_t child) noexcept {
     siginfo_t end{};
     return ::waitid(kind, child, &end, WEXITED | WNOHANG | WNOWAIT) == 0;
 }
 
-/// Kills the process of the descriptor and its group, also after another thread has waited for it. Older
-/// systems know a group by its number only.
+/// Kills the process of the descriptor and its group, also after another thread has waited for the process.
+/// Older kernels kill a group by its id only.
 void kill_group(int watch, pid_t pid) noexcept {
     if (::syscall(SYS_pidfd_send_signal, watch, SIGKILL, nullptr, kToGroup) == 0 || errno != EINVAL) {
         return;
@@ -137,7 +139,7 @@ void kill_group(int watch, pid_t pid) noexcept {
     }
 }
 
-/// Ends what has started without a descriptor, whether it has a group of its own yet or not.
+/// Kills a process that was started without a process descriptor, with or without its own group.
 void kill_unwatched(pid_t pid) noexcept {
     siginfo_t end{};
     if (is_held(P_PID, static_cast<id_t>(pid))) {
@@ -154,23 +156,23 @@ const char* describe(PartitionError error) noexcept {
         case PartitionError::kNone:
             return "runs";
         case PartitionError::kNoProcess:
-            return "cannot get a process: too many run, or too many files are open";
+            return "cannot create a process: too many processes or open files";
         case PartitionError::kTooManyStrings:
-            return "cannot be handed the environment: it has too many entries";
+            return "cannot inherit the environment: it has too many entries";
         case PartitionError::kCannotPlace:
-            return "cannot run there: the machine does not give that processor";
+            return "cannot run on this processor: select a processor that exists and is permitted";
         case PartitionError::kCannotRestrict:
-            return "cannot be restricted: the system refuses a limit";
+            return "cannot be restricted: the system rejects a limit";
         case PartitionError::kCannotBecome:
-            return "cannot run as that user: give the safety process CAP_SETUID and CAP_SETGID";
+            return "cannot run as this user: give the safety process CAP_SETUID and CAP_SETGID";
         case PartitionError::kCannotHandOver:
-            return "cannot be handed a descriptor: open it first";
+            return "cannot inherit a descriptor: open it first";
         case PartitionError::kCannotExecute:
             return "cannot be executed: check the path and its permissions";
         case PartitionError::kCannotWatch:
-            return "cannot be watched: Linux 5.9 or later is needed";
+            return "cannot be supervised: use Linux 5.9 or later";
     }
-    return "failed for an unknown reason";  // only a corrupted value comes here
+    return "failed for an unknown reason";  // reached with a corrupted value only
 }
 
 PartitionProcess::~PartitionProcess() {
@@ -205,8 +207,8 @@ Status PartitionProcess::start(const PartitionOrder& order) noexcept {
     return Status::kError;
 }
 
-/// The program's start closes the socket; the descriptor of the process, and what prevents the start, come
-/// through it before.
+/// The socket transmits the process descriptor and the cause of a failed start. The start of the program
+/// closes it.
 PartitionError PartitionProcess::launch(const PartitionOrder& order) noexcept {
     ChildPlan plan{order};
     std::array<char, kEpochNameLength + std::numeric_limits<std::int64_t>::digits10 + 3U> epoch{};
@@ -238,12 +240,12 @@ PartitionError PartitionProcess::launch(const PartitionOrder& order) noexcept {
     }
     if (report.error != PartitionError::kNone) {
         siginfo_t end{};
-        static_cast<void>(wait_for(P_PID, static_cast<id_t>(pid), 0, end));  // it ends with its report
+        static_cast<void>(wait_for(P_PID, static_cast<id_t>(pid), 0, end));  // it ends after its report
         give_up();
         system_error_ = report.system_error;
         return report.error;
     }
-    if (watch_ < 0) {  // this process has no room for it
+    if (watch_ < 0) {  // too many open files in this process
         kill_unwatched(pid);
         system_error_ = EMFILE;
         return PartitionError::kNoProcess;
@@ -262,7 +264,7 @@ PartitionState PartitionProcess::check() noexcept {
     }
     kill_group(watch_, pid_);
     siginfo_t end{};
-    // Not where another thread has waited for it, or SIGCHLD is ignored.
+    // Unknown if another thread has waited for the process, or if SIGCHLD is ignored.
     const bool is_known = wait_for(kByDescriptor, static_cast<id_t>(watch_), WNOHANG, end);
     const bool has_exited = end.si_code == CLD_EXITED;
     exit_status_ = is_known && has_exited ? end.si_status : -1;

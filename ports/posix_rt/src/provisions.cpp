@@ -20,10 +20,10 @@ constexpr Status to_status(bool is_in_effect) noexcept {
     return is_in_effect ? Status::kOk : Status::kPreconditionNotMet;
 }
 
-/// One file of /proc, whole, with a zero behind it.
+/// Content of a file of /proc with a terminating zero.
 using Page = std::array<char, 4096U>;
 
-/// @return the number behind `name` at the begin of a line [KiB]; kUnsupported (there is none).
+/// @return the number after `name` at the start of a line [KiB]; kUnsupported (not found).
 Result<std::uint64_t> find_figure(const Page& page, const char* name) noexcept {
     const char* next = std::strstr(page.data(), name);
     if (next == nullptr) {
@@ -33,7 +33,7 @@ Result<std::uint64_t> find_figure(const Page& page, const char* name) noexcept {
     next += std::strspn(next, " \t");
     std::uint64_t figure = 0U;
     std::size_t digits = 0U;
-    // More digits than any machine has bytes would overflow: then it is no figure.
+    // Larger numbers would overflow and are invalid.
     while (*next >= '0' && *next <= '9' && digits < 18U) {
         figure = figure * 10U + static_cast<std::uint64_t>(*next - '0');
         ++next;
@@ -42,7 +42,7 @@ Result<std::uint64_t> find_figure(const Page& page, const char* name) noexcept {
     return digits == 0U ? Result<std::uint64_t>{Status::kUnsupported} : Result<std::uint64_t>{figure};
 }
 
-Status judge_memory(const Page& page, std::uint64_t unlockable) noexcept {
+Status check_memory(const Page& page, std::uint64_t unlockable) noexcept {
     const Result<std::uint64_t> mapped = find_figure(page, "\nVmSize:");
     const Result<std::uint64_t> locked = find_figure(page, "\nVmLck:");
     const Result<std::uint64_t> swapped = find_figure(page, "\nVmSwap:");
@@ -53,14 +53,14 @@ Status judge_memory(const Page& page, std::uint64_t unlockable) noexcept {
                      mapped.get_value() <= locked.get_value() + unlockable / 1024U);
 }
 
-/// @return fixed priority of a thread, 0 for an ordinary one; kPreconditionNotMet (it has ended);
-///         kUnsupported (the system lets nobody ask).
+/// @return fixed priority of a thread, 0 without one; kPreconditionNotMet (the thread has ended);
+///         kUnsupported (the system denies the query).
 Result<int> read_priority(pid_t thread) noexcept {
     sched_param parameters{};
     if (::sched_getparam(thread, &parameters) != 0) {
         return errno == ESRCH ? Status::kPreconditionNotMet : Status::kUnsupported;
     }
-    return parameters.sched_priority;  // 0 of each policy without a fixed priority
+    return parameters.sched_priority;  // 0 for each policy without a fixed priority
 }
 
 }  // namespace
@@ -80,14 +80,14 @@ Status MemoryLocked::open() noexcept {
 }
 
 Status MemoryLocked::look() noexcept {
-    // Linux writes the figures while other threads map and unmap, so a difference of a moment is looked at
+    // Other threads can map and unmap memory while Linux generates the figures, so a difference is checked
     // again.
     constexpr int kLooks = 3;
     Status status = Status::kUnsupported;
     for (int look = 0; look < kLooks && status != Status::kOk; ++look) {
         Page page{};
         const bool is_read = ::pread(file_, page.data(), page.size() - 1U, 0) > 0;
-        status = is_read ? judge_memory(page, unlockable_) : Status::kUnsupported;
+        status = is_read ? check_memory(page, unlockable_) : Status::kUnsupported;
     }
     return status;
 }
@@ -102,7 +102,7 @@ Status PreciseTimers::look() noexcept {
 
 Status FloatingPointMode::look() noexcept {
     using Limits = std::numeric_limits<double>;
-    // Results that are denormal are not flushed, and operands that are denormal are not taken for zero.
+    // Denormal results are not flushed to zero, and denormal operands are not treated as zero.
     const bool keeps_results = safety::hide(Limits::min()) * safety::hide(0.5) != 0.0;
     const bool keeps_operands = safety::hide(Limits::denorm_min()) * safety::hide(0x1p60) != 0.0;
     return to_status(keeps_results && keeps_operands && std::fegetround() == FE_TONEAREST);

@@ -44,7 +44,7 @@ Rate RateCheck::look(const ClockPair& pair) noexcept {
     const std::int64_t passed = pair.reference_ns - begin_.reference_ns;
     const std::int64_t gained = (pair.watched - begin_.watched).ns - passed;
     const std::int64_t slack = pair.uncertainty.ns + begin_.uncertainty.ns;
-    // Someone who looks late compares over more than a span; then the limit is that of the time that passed.
+    // After a late call, the comparison covers more than a span. The limit then refers to the elapsed time.
     const std::int64_t over = passed > limits_.span.ns ? passed : limits_.span.ns;
     const std::int64_t allowed =
         over / kMillion * limits_.limit_ppm + over % kMillion * limits_.limit_ppm / kMillion;

@@ -15,13 +15,14 @@ namespace {
 constexpr std::size_t kPage = 4096U;
 constexpr std::size_t kStackMax = 1U << 20U;
 constexpr std::size_t kRoom = 64U << 20U;
-constexpr std::size_t kReserve = 4096U;  ///< for the frames below what is touched
+constexpr std::size_t kReserve = 4096U;  ///< for stack frames below the touched bytes
 
 Right to_right(int system_error) noexcept {
     return {system_error == 0, system_error};
 }
 
-/// Bytes that the calling thread's stack has left below `frame` without kReserve; 0 when Linux does not tell.
+/// Free bytes of the stack of the calling thread below `frame`, minus kReserve; 0 if Linux does not report
+/// them.
 std::size_t calc_free_stack(std::uintptr_t frame) noexcept {
     pthread_attr_t attributes;
     if (pthread_getattr_np(pthread_self(), &attributes) != 0) {
@@ -35,8 +36,8 @@ std::size_t calc_free_stack(std::uintptr_t frame) noexcept {
     return is_known && frame > end ? static_cast<std::size_t>(frame - end) : 0U;
 }
 
-/// Writes into each page of the next `size` bytes of the stack, as far as the thread has them. The frame
-/// grows by just that: an array of the largest size would be more than a small stack holds.
+/// Writes to each page of the next `size` bytes of the stack, at most those that the thread has. Allocates
+/// exactly these bytes, because an array of the maximum size would overflow a small stack.
 [[gnu::noinline]] void touch_stack(std::size_t size) noexcept {
     const std::size_t free = calc_free_stack(reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)));
     const std::size_t touched = size < free ? size : free;
@@ -49,8 +50,8 @@ std::size_t calc_free_stack(std::uintptr_t frame) noexcept {
     }
 }
 
-/// Locks all, and gives it back where a limit (RLIMIT_MEMLOCK) leaves too little for what comes later: with
-/// it in force the stack of the next thread could not be had.
+/// Locks all memory. Unlocks it again if the limit (RLIMIT_MEMLOCK) leaves too little for later allocations,
+/// because then no further thread could get a stack.
 int lock_all() noexcept {
     if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
         return errno;
@@ -81,7 +82,7 @@ int make_attributes(pthread_attr_t& attributes, std::size_t size) noexcept {
     return result;
 }
 
-/// SCHED_OTHER, whatever the caller has. @return 0 or the error of pthread_create().
+/// Uses SCHED_OTHER, with any policy of the caller. @return 0 or the error of pthread_create().
 int create_ordinary(pthread_t& thread, void* (*run)(void*), void* argument, std::size_t stack_size) noexcept {
     const sched_param none{};
     pthread_attr_t attributes;
@@ -89,7 +90,7 @@ int create_ordinary(pthread_t& thread, void* (*run)(void*), void* argument, std:
     if (result != 0) {
         return result;
     }
-    // These cannot fail with constants that each Linux has.
+    // These calls cannot fail with constants that each Linux supports.
     MAMORI_ENSURE(1, pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED) == 0);
     MAMORI_ENSURE(2, pthread_attr_setschedpolicy(&attributes, SCHED_OTHER) == 0);
     MAMORI_ENSURE(3, pthread_attr_setschedparam(&attributes, &none) == 0);
@@ -98,7 +99,7 @@ int create_ordinary(pthread_t& thread, void* (*run)(void*), void* argument, std:
     return result;
 }
 
-/// The scheduling of the caller. @return 0 or the error of pthread_create().
+/// Uses the scheduling of the caller. @return 0 or the error of pthread_create().
 int create_alike(pthread_t& thread, void* (*run)(void*), void* argument, std::size_t stack_size) noexcept {
     pthread_attr_t attributes;
     int result = make_attributes(attributes, stack_size);
@@ -145,7 +146,7 @@ Status start_thread(pthread_t& thread, void* (*run)(void*), void* argument, Thre
                     ThreadRights& rights) noexcept {
     pthread_t started{};
     int result = create_ordinary(started, run, argument, place.stack_size);
-    // Where even the ordinary policy is a privilege, the caller runs in SCHED_IDLE, and so does its thread.
+    // If SCHED_OTHER requires a privilege, the caller runs in SCHED_IDLE, and so does the new thread.
     if (result == EPERM && get_own_priority() == 0) {
         result = create_alike(started, run, argument, place.stack_size);
     }

@@ -8,16 +8,16 @@ namespace {
 
 using detail::FrameWord;
 
-/// Places of the words of a slot, and of the number of the newest frame.
+/// Indices of the words of a slot, and of the number of the newest message.
 constexpr std::size_t kNewest{0U};
 constexpr std::size_t kNumber{0U};
 constexpr std::size_t kInstant{1U};
 constexpr std::size_t kLength{2U};
 
-/// In place of a number: a frame is being written there.
+/// Value instead of a number: a message is being written to the slot.
 constexpr FrameWord kUnderWay{0U};
 
-/// Any number finds a slot, one that random bytes made as well.
+/// Returns a valid slot for any number, also one from random bytes.
 std::size_t find_slot(std::uint64_t number, std::size_t capacity) noexcept {
     return 1U + static_cast<std::size_t>(number % detail::kFrameSlots) * detail::calc_slot_words(capacity);
 }
@@ -28,7 +28,7 @@ bool is_usable(const std::byte* data, std::size_t size, std::size_t capacity) no
            size >= calc_frame_region_size(capacity);
 }
 
-/// Bytes of the word at `index` of a content of `length` bytes.
+/// Used bytes of the word at `index` of a content of `length` bytes.
 std::size_t calc_used(std::size_t length, std::size_t index) noexcept {
     const std::size_t rest = length - index * sizeof(FrameWord);
     return rest < sizeof(FrameWord) ? rest : sizeof(FrameWord);
@@ -61,7 +61,7 @@ Status FrameWriter::write(Span<const std::byte> content, Instant published_at) n
     number_ += number_ == kUnderWay ? 1U : 0U;
     FrameWord* const slot = words_ + find_slot(number_, capacity_);
     __atomic_store_n(&slot[kNumber], kUnderWay, __ATOMIC_RELAXED);
-    // Release: whoever sees one of these words sees that the frame was under way.
+    // Release: a reader that sees one of these words also sees that the message is being written.
     __atomic_store_n(&slot[kInstant], static_cast<FrameWord>(published_at.ns), __ATOMIC_RELEASE);
     __atomic_store_n(&slot[kLength], static_cast<FrameWord>(content.size()), __ATOMIC_RELEASE);
     for (std::size_t i = 0U; i < count_words(content.size()); ++i) {
@@ -103,7 +103,7 @@ FrameOutcome FrameReader::take(Span<std::byte> content, FrameFacts& facts) noexc
     return FrameOutcome::kTorn;
 }
 
-/// Each word is loaded once, so what is judged is what is used.
+/// Loads each word once, so that the checked value is the used value.
 FrameOutcome FrameReader::copy(std::uint64_t number, Span<std::byte> content,
                                FrameFacts& facts) const noexcept {
     const FrameWord* const slot = words_ + find_slot(number, capacity_);
@@ -117,7 +117,7 @@ FrameOutcome FrameReader::copy(std::uint64_t number, Span<std::byte> content,
         const FrameWord word = __atomic_load_n(&slot[detail::kFrameHeadWords + i], __ATOMIC_ACQUIRE);
         __builtin_memcpy(content.data() + i * sizeof(FrameWord), &word, calc_used(length, i));
     }
-    // The acquires above keep this load behind them.
+    // The acquire operations above order this load after them.
     if (__atomic_load_n(&slot[kNumber], __ATOMIC_RELAXED) != number) {
         return FrameOutcome::kTorn;
     }

@@ -14,7 +14,7 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-/// Nobody can make it shorter, which would kill whoever reads behind the new end.
+/// No process can shrink the memory, which would raise SIGBUS in a reader beyond the new end.
 constexpr int kSizeSeals = F_SEAL_SHRINK | F_SEAL_GROW;
 
 }  // namespace
@@ -22,25 +22,25 @@ constexpr int kSizeSeals = F_SEAL_SHRINK | F_SEAL_GROW;
 const char* describe(SharedMemoryError error) noexcept {
     switch (error) {
         case SharedMemoryError::kNone:
-            return "is there";
+            return "is open";
         case SharedMemoryError::kCannotCreate:
-            return "cannot be created: the system has no anonymous files, or too many are open";
+            return "cannot be created: the system has no anonymous files, or too many files are open";
         case SharedMemoryError::kCannotReserve:
-            return "cannot get its space: make it smaller, or give the machine more memory";
+            return "cannot be allocated: make it smaller, or provide more memory";
         case SharedMemoryError::kCannotSeal:
-            return "cannot be sealed: Linux 5.1 or later is needed";
+            return "cannot be sealed: use Linux 5.1 or later";
         case SharedMemoryError::kCannotReopen:
             return "cannot be opened for reading only: mount /proc";
         case SharedMemoryError::kNoMemory:
-            return "is no memory to share: hand over the descriptor of a SharedMemory";
+            return "is not shareable memory: pass the descriptor of a SharedMemory";
         case SharedMemoryError::kWrongSize:
             return "has another size: build both programs from the same messages";
         case SharedMemoryError::kNotSealed:
-            return "could change its size while it is used: create it as a SharedMemory";
+            return "could change its size during use: create it as a SharedMemory";
         case SharedMemoryError::kCannotMap:
-            return "cannot be mapped: it is only to be read, or the limits of the process are too small";
+            return "cannot be mapped: it is read-only, or the limits of the process are too small";
     }
-    return "failed for an unknown reason";  // only a corrupted value comes here
+    return "failed for an unknown reason";  // reached with a corrupted value only
 }
 
 Status SharedMemory::create(const char* name, std::size_t size, SharedAccess access) noexcept {
@@ -116,7 +116,7 @@ Status SharedMemory::conclude(SharedMemoryError error) noexcept {
     return Status::kError;
 }
 
-/// Gives the new file its pages, maps it and takes from everybody what they do not need.
+/// Allocates the pages of the new file, maps it and seals it against all access that is not required.
 SharedMemoryError SharedMemory::fill(int file, std::size_t size, SharedAccess access) noexcept {
     const int refusal = ::posix_fallocate(file, 0, static_cast<off_t>(size));
     if (refusal != 0) {
@@ -128,7 +128,7 @@ SharedMemoryError SharedMemory::fill(int file, std::size_t size, SharedAccess ac
     if (error != SharedMemoryError::kNone) {
         return error;
     }
-    // The mapping that the writer has by now stays writable; no further one can be.
+    // The existing mapping of the writer stays writable. New writable mappings are impossible.
     const int seals = kSizeSeals | F_SEAL_SEAL | (is_writer ? F_SEAL_FUTURE_WRITE : 0);
     if (::fcntl(file, F_ADD_SEALS, seals) != 0) {
         system_error_ = errno;
@@ -137,7 +137,7 @@ SharedMemoryError SharedMemory::fill(int file, std::size_t size, SharedAccess ac
     return SharedMemoryError::kNone;
 }
 
-/// Through a descriptor that can only read, so that no mprotect() makes the mapping writable again.
+/// Uses a read-only descriptor, so that mprotect() cannot make the mapping writable.
 SharedMemoryError SharedMemory::map_to_read(int file, std::size_t size) noexcept {
     constexpr char kFolder[] = "/proc/self/fd/";
     std::array<char, sizeof(kFolder) + std::numeric_limits<int>::digits10 + 2U> path{};

@@ -14,10 +14,10 @@
 namespace mamori::ports::posix_rt {
 namespace {
 
-/// In the device's timeout: a thread that is held up for most of it costs no reset.
+/// Services per timeout of the device: a delay of the thread for most of the timeout causes no reset.
 constexpr std::int64_t kDeviceServices = 4;
 
-/// Handlers of the application would run on whichever thread has not blocked their signal, and take its time.
+/// Otherwise, handlers of the application could run on this thread and take its time.
 void block_other_signals() noexcept {
     sigset_t signals;
     MAMORI_ENSURE(8, ::sigfillset(&signals) == 0);
@@ -75,8 +75,8 @@ Status SoftwareWatchdog::close() noexcept {
     return Status::kOk;
 }
 
-/// What a state says of a watchdog that is looked at now.
-WatchdogCause SoftwareWatchdog::judge(std::int64_t state, Instant now) const noexcept {
+/// Evaluates the state at instant `now`.
+WatchdogCause SoftwareWatchdog::evaluate(std::int64_t state, Instant now) const noexcept {
     if (has_expired_in(state)) {
         return static_cast<WatchdogCause>(state - kExpired);
     }
@@ -88,7 +88,7 @@ WatchdogCause SoftwareWatchdog::judge(std::int64_t state, Instant now) const noe
 Status SoftwareWatchdog::service(Instant) noexcept {
     const Instant now = clock_.get_now();
     std::int64_t state = state_.load(std::memory_order_acquire);
-    WatchdogCause cause = judge(state, now);
+    WatchdogCause cause = evaluate(state, now);
     if (state == kClosed || has_expired_in(state)) {
         return Status::kError;
     }
@@ -99,11 +99,12 @@ Status SoftwareWatchdog::service(Instant) noexcept {
     const bool is_first = state == kSilent;
     const bool is_taken = cause == WatchdogCause::kNone;
     const std::int64_t next = is_taken ? now.ns : kExpired + static_cast<std::int64_t>(cause);
-    // Lost against the thread, which has found in the meantime that the time is over.
+    // Meanwhile, the thread has found that the time has elapsed.
     if (!state_.compare_exchange_strong(state, next, std::memory_order_acq_rel)) {
         return Status::kError;
     }
-    // The reaction is the thread's: this context may be the one that runs wild, and has no priority to keep.
+    // The thread executes the reaction, since this context can be the runaway loop and has no guaranteed
+    // priority.
     if (is_first || !is_taken) {
         static_cast<void>(sem_post(&changed_));
     }
@@ -115,18 +116,20 @@ bool SoftwareWatchdog::has_expired() const noexcept {
 }
 
 WatchdogCause SoftwareWatchdog::get_cause() const noexcept {
-    // The state first: a service that comes after the reading of the clock would look like one of the future.
+    // Reads the state first: otherwise, a service after the reading of the clock would seem to be in the
+    // future.
     const std::int64_t state = state_.load(std::memory_order_acquire);
-    return judge(state, clock_.get_now());
+    return evaluate(state, clock_.get_now());
 }
 
 bool SoftwareWatchdog::is_watching() const noexcept {
     const std::int64_t state = state_.load(std::memory_order_acquire);
-    return state != kClosed && state != kSilent && judge(state, clock_.get_now()) == WatchdogCause::kNone;
+    return state != kClosed && state != kSilent && evaluate(state, clock_.get_now()) == WatchdogCause::kNone;
 }
 
 void SoftwareWatchdog::watch() noexcept {
-    // Without it a crash of this very thread by its stack ends the process unrecorded; the rest is the same.
+    // If this fails, a stack overflow of this thread ends the process without a record. Other crashes are
+    // recorded.
     static_cast<void>(crash_stack_.take());
     set_crash_place_of_watchdog();
     block_other_signals();
@@ -140,14 +143,15 @@ void SoftwareWatchdog::watch() noexcept {
     crash_stack_.give_back();
 }
 
-/// Ends too when the watching is to end, but not before a last look: what has_expired() said is so.
+/// Also ends on close(), but only after a last check, so that each expiry that has_expired() has reported
+/// causes the reaction.
 void SoftwareWatchdog::watch_until_expired() noexcept {
     std::int64_t state = state_.load(std::memory_order_acquire);
     while (!has_expired_in(state)) {
-        // In this order: the last look at the clock comes after the call of close().
+        // This order ensures that the last reading of the clock is after the call of close().
         const bool is_ending = is_ending_.load(std::memory_order_acquire);
         const Instant now = clock_.get_now();
-        WatchdogCause cause = judge(state, now);
+        WatchdogCause cause = evaluate(state, now);
         if (cause == WatchdogCause::kNone && is_ending) {
             return;
         }
@@ -157,7 +161,7 @@ void SoftwareWatchdog::watch_until_expired() noexcept {
         if (cause == WatchdogCause::kNone) {
             wait_for_change(state);
         } else {
-            // A service may have come first; what is wrong is seen again then, if it still is.
+            // If a service was faster, the next iteration checks again.
             static_cast<void>(state_.compare_exchange_strong(
                 state, kExpired + static_cast<std::int64_t>(cause), std::memory_order_acq_rel));
         }
@@ -165,7 +169,7 @@ void SoftwareWatchdog::watch_until_expired() noexcept {
     }
 }
 
-/// Serves the device when it is time to.
+/// Services the device when due. @return true: the device rejected the service.
 bool SoftwareWatchdog::is_device_lost(Instant now) noexcept {
     if (device_ == nullptr || now < device_due_) {
         return false;
@@ -177,7 +181,7 @@ bool SoftwareWatchdog::is_device_lost(Instant now) noexcept {
     return !is_taken;
 }
 
-/// Until somebody posts, the time of the last service is over, or the device is due.
+/// Waits until the semaphore is posted, the time of the last service has elapsed, or the device is due.
 void SoftwareWatchdog::wait_for_change(std::int64_t state) noexcept {
     const bool is_running = state != kSilent;
     const Instant over =

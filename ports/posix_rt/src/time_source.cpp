@@ -14,7 +14,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 std::int64_t read(clockid_t clock) noexcept {
     timespec now{};
-    // It cannot fail with a clock that every Linux has and a valid address.
+    // The call cannot fail: every Linux has this clock, and the address is valid.
     MAMORI_ENSURE(1, clock_gettime(clock, &now) == 0);
     return static_cast<std::int64_t>(now.tv_sec) * kSecond + now.tv_nsec;
 }

@@ -13,9 +13,9 @@ namespace mamori::ports::posix_rt {
 namespace {
 
 constexpr std::int64_t kSecondNs = 1'000'000'000;
-/// Without waiting: a pipe or a terminal must be refused, not waited for.
+/// Non-blocking, so that a pipe or terminal is rejected without a wait.
 constexpr int kFlags = O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
-/// Written before the closing, it stops the device; any other byte is a service.
+/// This byte stops the device if it is written before close(). Any other byte is a service.
 constexpr char kStop = 'V';
 constexpr char kServe = '\0';
 
@@ -41,17 +41,17 @@ const char* describe(WatchdogDeviceError error) noexcept {
         case WatchdogDeviceError::kCannotOpen:
             return "cannot be opened for writing: check the path and its permissions";
         case WatchdogDeviceError::kInUse:
-            return "is in use by another program: end that one, often a service of the system";
+            return "is in use by another program: end that program, often a system service";
         case WatchdogDeviceError::kNotAWatchdog:
-            return "does not answer as a watchdog: name a watchdog device";
+            return "is not a watchdog: specify a watchdog device";
         case WatchdogDeviceError::kStopsOnClose:
             return "stops when the program ends, also after a crash: use a driver with magic close";
         case WatchdogDeviceError::kDoesNotReset:
-            return "raises an alarm and does not reset the machine: use another device";
+            return "raises an alarm but does not reset the computer: use another device";
         case WatchdogDeviceError::kCannotSetTimeout:
-            return "does not take the timeout: ask for one that its driver can keep";
+            return "rejects the timeout: use one that its driver supports";
     }
-    return "failed for an unknown reason";  // only a corrupted value comes here
+    return "failed for an unknown reason";  // reached with a corrupted value only
 }
 
 WatchdogDevice::~WatchdogDevice() {
@@ -80,7 +80,8 @@ Status WatchdogDevice::open(const char* path, Duration timeout) noexcept {
         device_ = device;
         return Status::kOk;
     }
-    // Nothing relies on it yet, so it must not reset the machine. What is no watchdog gets no byte of ours.
+    // The device is not in use yet, so it must not reset the computer. Nothing is written to a file that is
+    // not a watchdog.
     if (error_ != WatchdogDeviceError::kNotAWatchdog) {
         static_cast<void>(calls_.write(device, &kStop, 1U));
     }
@@ -89,7 +90,7 @@ Status WatchdogDevice::open(const char* path, Duration timeout) noexcept {
     return Status::kError;
 }
 
-/// Judges an open device.
+/// Checks an open device.
 WatchdogDeviceError WatchdogDevice::take(int device, int seconds) noexcept {
     watchdog_info info{};
     if (calls_.control(device, WDIOC_GETSUPPORT, &info) != 0) {
@@ -103,13 +104,13 @@ WatchdogDeviceError WatchdogDevice::take(int device, int seconds) noexcept {
         return WatchdogDeviceError::kDoesNotReset;
     }
     int causes = 0;
-    // Not every driver knows; one that does not has told nothing.
+    // Not every driver reports the last reset.
     has_reset_machine_ =
         calls_.control(device, WDIOC_GETBOOTSTATUS, &causes) == 0 && (causes & WDIOF_CARDRESET) != 0;
     return agree_on_timeout(device, seconds, (info.options & WDIOF_SETTIMEOUT) != 0U);
 }
 
-/// A driver may round what it is asked for: what it says afterwards counts.
+/// A driver may round the timeout, so the value that it reports afterwards is checked.
 WatchdogDeviceError WatchdogDevice::agree_on_timeout(int device, int seconds, bool can_set) noexcept {
     int wanted = seconds;
     if (can_set && calls_.control(device, WDIOC_SETTIMEOUT, &wanted) != 0) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a system that runs by the clock finds its assumptions of use kept, from inside a window, and names
-// the one that is lost. Method: a real executive whose one component asks every provision of this port in
-// each frame, with memory locked and priorities given; then its own thread rounds in another way, the runner
-// loses its priority, memory is unlocked, or the watchdog is closed.
+// Goal: a component of a real-time system checks from inside a window that all assumptions of use hold, and
+// names a violated one. Method: a real executive whose only component queries all platform properties of this
+// port in each major frame, with locked memory and fixed priorities. Then the thread of the component changes
+// its rounding mode, the runner loses its priority, memory is unlocked, or the watchdog is closed.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 
@@ -30,7 +30,7 @@ using safety::SelfTestStatus;
 using namespace verification;
 
 constexpr Duration kFrame = 5_ms;
-constexpr std::int64_t kChange = 60;  ///< frame in which something is taken away
+constexpr std::int64_t kChange = 60;  ///< major frame in which a property is removed
 constexpr std::uint64_t kFrames = 70U;
 constexpr Duration kHour{3'600'000'000'000};
 
@@ -38,12 +38,12 @@ void keep_outputs(void*) noexcept {}
 
 enum class Assumption : safety::AssumptionIndex { kTick, kTimers, kMemory, kFpu, kGuard, kWatchdog, kCount };
 
-/// Everything that the checks of one run need. Static storage, as the table asks for.
+/// Objects that the checks of one run need. Static storage, as the table requires.
 struct Platform {
     FrameClock clock = FrameClock::starting_in(50_ms);
     ReadingSource reference{get_raw_clock()};
     TickSource tick{clock};
-    // Far more than a thread of fixed priority is held up between two readings.
+    // Much more than the delay of a thread with fixed priority between two readings.
     safety::TickSourceCheck tick_check{reference, tick, {100_ms, 200000U}};
     PreciseTimers timers{};
     ProvisionCheck timers_check{timers};
@@ -58,7 +58,7 @@ struct Platform {
     ProvisionCheck watchdog_check{armed};
 };
 
-/// Serves the watchdog and asks for the assumptions, as a supervisor does.
+/// Services the watchdog and checks the assumptions, as a supervisor does.
 class Asker final : public Component {
   public:
     Asker() noexcept : Component("asker") {}
@@ -88,7 +88,7 @@ class Asker final : public Component {
 
 class AssumedSystemTest : public ::testing::Test {
   protected:
-    /// A run in which `change` happens. @return false without the rights for it.
+    /// Runs the system and executes `change` during the run. @return false without the privileges.
     bool run(std::function<void()> change) {
         asker_.platform = &platform_;
         asker_.assumptions = &monitor_;
@@ -132,9 +132,9 @@ class AssumedSystemTest : public ::testing::Test {
     ExecutiveFor<decltype(table_)> executive_{table_};
 };
 
-constexpr const char* kNoRights = "verdict=no-privilege: no right for fixed priorities or locked memory";
+constexpr const char* kNoRights = "verdict=no-privilege: no privilege for fixed priorities or locked memory";
 
-TEST_F(AssumedSystemTest, WindowFindsAllThatItsSystemHas) {
+TEST_F(AssumedSystemTest, WindowFindsAllPropertiesInEffect) {
     verifies("SWR-AOU-014", Technique::kInterface);
     if (!run({})) {
         GTEST_SKIP() << kNoRights;

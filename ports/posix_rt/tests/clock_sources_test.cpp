@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the clocks of Linux come through to the checks of the safety layer, which then find a time line that
-// is not as fast as the reference. Method: the real clocks against each other; a time line that stands, and
-// one that is a tenth too fast or too slow, on the real clock.
+// Goal: the checks of the safety layer read the clocks of Linux and find a time line with a rate other than
+// that of the reference. Method: the real clocks compared with each other; a stopped time line, and one that
+// is 10 % too fast or too slow, derived from the real clock.
 #include "mamori/ports/posix_rt/clock_sources.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using safety::SelfTestStatus;
 using safety::TickSourceCheck;
 using namespace verification;
 
-/// Linux's clock, `percent` of its rate.
+/// The Linux clock at `percent` of its rate.
 class ScaledClock final : public TimeSource {
   public:
     explicit ScaledClock(std::int64_t percent) noexcept : percent_(percent) {}
@@ -32,7 +32,7 @@ class ScaledClock final : public TimeSource {
     std::int64_t zero_{get_monotonic_clock().read_ns()};
 };
 
-/// @return the first answer of a check over windows of 50 ms that is none but "not known yet".
+/// @return the first result other than "not known yet" of a check over windows of 50 ms.
 SelfTestStatus check_window(safety::ClockSource& tick) {
     ReadingSource reference{get_raw_clock()};
     TickSourceCheck check{reference, tick, {50_ms, 20000U}};
@@ -43,7 +43,7 @@ SelfTestStatus check_window(safety::ClockSource& tick) {
     return status;
 }
 
-TEST(ClockSourcesTest, TheyAreTheClocksBehindThem) {
+TEST(ClockSourcesTest, SourcesReturnTheReadingsOfTheirClocks) {
     verifies("SWR-SLF-021");
     FakeClock clock{7};
     ReadingSource reading{clock};
@@ -58,13 +58,12 @@ TEST(ClockSourcesTest, TheyAreTheClocksBehindThem) {
     EXPECT_EQ(tick.read(), Instant{3});
 }
 
-TEST(ClockSourcesTest, TimeLineOfThisMachineKeepsItsRate) {
+TEST(ClockSourcesTest, TimeLineOfThisComputerKeepsItsRate) {
     verifies("SWR-SLF-021", Technique::kInterface);
     const FrameClock line = FrameClock::starting_in(0_ns);
     TickSource tick{line};
 
-    // A thread that is held up for a millisecond between two readings deviates by 2 %: not ten times in a
-    // row.
+    // A delay of 1 ms between two readings is a deviation of 2 %. It does not occur ten times in succession.
     SelfTestStatus status = SelfTestStatus::kFailed;
     for (int i = 0; i < 10 && status != SelfTestStatus::kPassed; ++i) {
         status = check_window(tick);
@@ -72,7 +71,7 @@ TEST(ClockSourcesTest, TimeLineOfThisMachineKeepsItsRate) {
     EXPECT_EQ(status, SelfTestStatus::kPassed);
 }
 
-TEST(ClockSourcesTest, TimeLineThatStandsOrIsATenthOffFails) {
+TEST(ClockSourcesTest, TimeLineThatIsStoppedOrDeviatesByTenPercentFails) {
     verifies("SWR-SLF-021", Technique::kFaultInjection, Polarity::kViolation);
     const FakeClock frozen{7};
     const FrameClock frozen_line = FrameClock::starting_in(0_ns, frozen);

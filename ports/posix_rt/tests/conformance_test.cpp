@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the port for real time keeps the contracts of a port. Method: the rules of ports/conformance in their
-// order and in a random order, by the clock; those of the storage also in every order up to a depth. Nothing
-// is asked of the speed of the machine: the rules demand order, counts and lower bounds only. A crash is a
-// process that kills itself.
+// Goal: the real-time port complies with the contracts of a port. Method: the rules of ports/conformance in
+// the fixed order and in random order, in real time; the rules of the storage also in every order up to a
+// length. The tests do not depend on the speed of the host: the rules require order, counts and lower bounds
+// only. A process that kills itself simulates a crash.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -117,7 +117,7 @@ class CoreRunnerRig final : public conformance::TimerRig {
     CoreRunner runner_;
 };
 
-/// A file of its own, which goes with it.
+/// Uses a temporary file, which it deletes.
 class MappedFileRig final : public conformance::StorageRig {
   public:
     ~MappedFileRig() override {
@@ -152,7 +152,7 @@ class MappedFileRig final : public conformance::StorageRig {
     MappedFile file_;
 };
 
-/// The relay is what has_expired() says; the outputs follow it, on the thread of the watchdog.
+/// has_expired() represents the relay. The watchdog thread then closes the outputs.
 class SoftwareWatchdogRig final : public conformance::WatchdogRig {
   public:
     SoftwareWatchdogRig() { EXPECT_EQ(watchdog_.open({}), Status::kOk); }
@@ -217,12 +217,12 @@ TEST(PosixRtConformanceTest, OnlyStepsThatEndByTheDeadlineAreCounted) {
     expect_kept(run_randomly(make_host(), kSeed, 400U));
 }
 
-TEST(PosixRtConformanceTest, WorkThatHangsIsCutOffAndCostsNoOtherWindow) {
+TEST(PosixRtConformanceTest, WorkThatHangsIsAbortedAndDoesNotDelayOtherWindows) {
     verifies("SWR-CNF-004", Technique::kStateTransition);
     expect_kept(run_randomly(make_host(), kSeed + 1U, 400U));
 }
 
-TEST(PosixRtConformanceTest, WorkThatWasCutOffHasReturnedOnlyWhenItIsOver) {
+TEST(PosixRtConformanceTest, AbortedWorkIsReportedAsReturnedOnlyAfterItsEnd) {
     verifies("SWR-CNF-005", Technique::kStateTransition);
     expect_kept(run_randomly(make_host(), kSeed + 2U, 400U));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a crash closes the outputs, takes no record that was written, is told by signal, address and
-// component, and ends the process with the status that it would have had. Method: processes that crash in
-// each way, by their own code and by signals at random instants, most of them inside a write of the recorder
-// (the seed is printed on failure); their parent reads the file.
+// Goal: a crash closes the outputs, keeps all records that were written, is recorded with signal, address and
+// component, and ends the process with the same status as without handlers. Method: processes that crash in
+// each way, by their own code and by signals at random instants, most of them during a write of the recorder
+// (the seed is printed on failure). Their parent reads the file.
 #include "mamori/ports/posix_rt/crash_handlers.hpp"
 
 #include <gtest/gtest.h>
@@ -41,17 +41,18 @@ using namespace verification;
 
 constexpr std::size_t kCapacity = 256U;
 constexpr std::uint64_t kUnreachable = 0x10U;
-constexpr int kPatience = 2'000'000'000;  ///< rounds of a loop: with a child that never writes
+constexpr int kPatience =
+    2'000'000'000;  ///< maximum number of loop iterations, for a child that never writes
 
-/// What parent and child both see.
+/// Data that parent and child share.
 struct Shared {
-    std::atomic<std::uint64_t> first{0U};   ///< number that the session began with
+    std::atomic<std::uint64_t> first{0U};   ///< first number of the session
     std::atomic<std::uint64_t> newest{0U};  ///< number of the last record whose write has returned
     std::atomic<std::uint64_t> address{0U};
     std::atomic<int> closings{0};
     std::atomic<bool> is_writing{false};
 
-    /// Takes some time, but goes on until something was written.
+    /// Runs for some time, and at least until a record was written.
     void spin(int rounds) const {
         for (volatile int i = 0; i < rounds || (!is_writing && i < kPatience); i = i + 1) {
         }
@@ -63,7 +64,7 @@ std::int64_t calc_argument(std::uint64_t sequence) {
     return static_cast<std::int64_t>(sequence * 0x9E3779B97F4A7C15U);
 }
 
-/// What a child works with; it never comes to an end of its scope.
+/// Objects of a child. They are never destroyed.
 struct Child {
     MappedFile file{};
     FlightRecorder recorder{};
@@ -84,7 +85,7 @@ struct Child {
         shared.first = recorder.get_next_sequence();
     }
 
-    [[noreturn]] void write_for_ever(Shared& shared) {
+    [[noreturn]] void write_until_killed(Shared& shared) {
         for (;;) {
             const std::uint64_t sequence = recorder.get_next_sequence();
             recorder.write(Instant{1}, Severity::kInfo, 1U, 2U, calc_argument(sequence));
@@ -108,8 +109,9 @@ class CrashHandlersTest : public ::testing::Test {
         std::filesystem::remove(path_);
     }
 
-    /// @param[in] act on the child; one that returns ends it in status 3. @param[in] disturb the parent's
-    /// part meanwhile. @return the status of its end.
+    /// @param[in] act runs in the child, which ends with status 3 if `act` returns.
+    /// @param[in] disturb runs in the parent meanwhile.
+    /// @return exit status of the child.
     int run(const std::function<void(Child&)>& act, const std::function<void(pid_t)>& disturb = {},
             void (*close)(void*) noexcept = &Shared::close_outputs) {
         shared_->closings = 0;
@@ -148,7 +150,8 @@ class CrashHandlersTest : public ::testing::Test {
         return note;
     }
 
-    /// Every record of the session whose write had returned is whole, and at most one more is torn.
+    /// All records of the session whose write had returned are intact, and at most one additional slot is
+    /// torn.
     /// @return torn slots.
     int expect_records(int torn_before) const {
         const std::vector<std::byte> bytes = read_file();
@@ -166,7 +169,8 @@ class CrashHandlersTest : public ::testing::Test {
         }
         EXPECT_LE(torn, torn_before + 1);
         const std::uint64_t newest = shared_->newest;
-        // The record that was being written takes the place of the oldest; a whole one may not be told yet.
+        // The record in progress overwrites the oldest one. The child may not have reported a complete record
+        // yet.
         const std::uint64_t oldest = newest + 2U > kCapacity ? newest + 2U - kCapacity + 1U : 1U;
         for (std::uint64_t number = std::max<std::uint64_t>(oldest, shared_->first); number <= newest;
              ++number) {
@@ -181,7 +185,7 @@ class CrashHandlersTest : public ::testing::Test {
     Shared* shared_{nullptr};
 };
 
-// Ways to crash. What the language leaves undefined here is what the test is about.
+// Functions that crash. Their undefined behaviour is intended.
 
 __attribute__((no_sanitize("undefined", "address"))) void reach_nowhere(Shared&) {
     volatile std::uintptr_t place = kUnreachable;
@@ -234,7 +238,7 @@ void PrintTo(const CrashCase& example, std::ostream* out) {
 
 class CrashCaseTest : public CrashHandlersTest, public ::testing::WithParamInterface<CrashCase> {};
 
-TEST_P(CrashCaseTest, IsToldAndCostsNoRecordWhileAnotherThreadWrites) {
+TEST_P(CrashCaseTest, IsRecordedAndLosesNoRecordWhileAnotherThreadWrites) {
     verifies("SWR-PRT-027", Technique::kFaultInjection, Polarity::kViolation);
     constexpr unsigned kSeed = 20261122U;
     constexpr std::uint32_t kRounds = 25U;
@@ -245,7 +249,7 @@ TEST_P(CrashCaseTest, IsToldAndCostsNoRecordWhileAnotherThreadWrites) {
         SCOPED_TRACE("round " + std::to_string(round));
         const int spins = std::uniform_int_distribution<int>{0, 300'000}(generator);
         const int status = run([&](Child& self) {
-            std::thread guilty{[&] {
+            std::thread faulty{[&] {
                 CrashStack stack;
                 static_cast<void>(stack.take());
                 set_crash_place(3U, 7U);
@@ -253,7 +257,7 @@ TEST_P(CrashCaseTest, IsToldAndCostsNoRecordWhileAnotherThreadWrites) {
                 GetParam().crash(*shared_);
                 ::_exit(4);
             }};
-            self.write_for_ever(*shared_);
+            self.write_until_killed(*shared_);
         });
 
         expect_killed_by(status, GetParam().signal);
@@ -285,7 +289,7 @@ INSTANTIATE_TEST_SUITE_P(All, CrashCaseTest,
                                            CrashCase{"trap", &trap, SIGTRAP, true, false}),
                          [](const auto& example) { return std::string{example.param.name}; });
 
-TEST_F(CrashHandlersTest, CrashInsideAWriteOfTheRecorderSpoilsAtMostThatRecord) {
+TEST_F(CrashHandlersTest, CrashDuringAWriteOfTheRecorderCorruptsAtMostThatRecord) {
     verifies("SWR-PRT-027", Technique::kFaultInjection, Polarity::kViolation);
     constexpr unsigned kSeed = 4077U;
     constexpr std::uint32_t kRounds = 120U;
@@ -296,7 +300,7 @@ TEST_F(CrashHandlersTest, CrashInsideAWriteOfTheRecorderSpoilsAtMostThatRecord) 
     for (std::uint32_t round = 1U; round <= kRounds && !HasFailure(); ++round) {
         SCOPED_TRACE("round " + std::to_string(round));
         const int signal = kCrashSignals[round % kCrashSignals.size()];
-        const int status = run([&](Child& self) { self.write_for_ever(*shared_); },
+        const int status = run([&](Child& self) { self.write_until_killed(*shared_); },
                                [&](pid_t child) {
                                    const int spins =
                                        std::uniform_int_distribution<int>{0, 100'000}(generator);
@@ -335,7 +339,7 @@ void crash_in_a_window(void (*crash)() noexcept) {
     }
 }
 
-TEST_F(CrashHandlersTest, ReplacedPlanIsFollowed) {
+TEST_F(CrashHandlersTest, ReplacedPlanIsUsed) {
     verifies("SWR-PRT-026", Technique::kInterface, Polarity::kNominal);
     const int status = run([this](Child& child) {
         CrashPlan plan{nullptr, shared_, child.file.get_region(), 77U, child.clock};
@@ -351,7 +355,7 @@ TEST_F(CrashHandlersTest, ReplacedPlanIsFollowed) {
     EXPECT_EQ(read_note().session, 79U);
 }
 
-TEST_F(CrashHandlersTest, CrashOfAComponentIsToldByItsPlaceInTheTable) {
+TEST_F(CrashHandlersTest, CrashOfAComponentIsRecordedWithItsIndexInTheTable) {
     verifies("SWR-PRT-027", Technique::kFaultInjection, Polarity::kViolation);
     const int status = run([](Child&) {
         crash_in_a_window([]() noexcept {
@@ -365,7 +369,7 @@ TEST_F(CrashHandlersTest, CrashOfAComponentIsToldByItsPlaceInTheTable) {
     EXPECT_EQ(read_note().place.component, 5U);
 }
 
-TEST_F(CrashHandlersTest, ComponentThatUsesUpItsStackIsToldToo) {
+TEST_F(CrashHandlersTest, StackOverflowOfAComponentIsRecorded) {
     verifies("SWR-PRT-026", Technique::kFaultInjection, Polarity::kViolation);
     const int status =
         run([](Child&) { crash_in_a_window([]() noexcept { static_cast<void>(use_up_stack(0)); }); });
@@ -375,18 +379,18 @@ TEST_F(CrashHandlersTest, ComponentThatUsesUpItsStackIsToldToo) {
     EXPECT_FALSE(read_note().is_sent);
 }
 
-TEST_F(CrashHandlersTest, MainThreadThatUsesUpItsStackIsToldToo) {
+TEST_F(CrashHandlersTest, StackOverflowOfTheMainThreadIsRecorded) {
     verifies("SWR-PRT-026", Technique::kFaultInjection, Polarity::kViolation);
     expect_killed_by(run([](Child&) { static_cast<void>(use_up_stack(0)); }), SIGSEGV);
     EXPECT_EQ(read_note().signal, SIGSEGV);
 }
 
-TEST_F(CrashHandlersTest, WatchdogThatEndsTheProcessIsToldAsSuch) {
+TEST_F(CrashHandlersTest, WatchdogThatEndsTheProcessIsRecordedAsCause) {
     verifies("SWR-PRT-027", Technique::kFaultInjection, Polarity::kViolation);
     const int status = run([this](Child& self) {
         SoftwareWatchdog watchdog{self.clock, {0_ms, 2_ms}, {&Shared::close_outputs, shared_, true}};
         if (watchdog.open({}) == Status::kOk && watchdog.service(self.clock.get_now()) == Status::kOk) {
-            self.write_for_ever(*shared_);
+            self.write_until_killed(*shared_);
         }
     });
 
@@ -418,7 +422,7 @@ TEST_F(CrashHandlersTest, CrashesOfSeveralThreadsCloseTheOutputsOnce) {
     }
 }
 
-TEST_F(CrashHandlersTest, CrashWhileTheOutputsAreClosedEndsTheProcessAllTheSame) {
+TEST_F(CrashHandlersTest, CrashWhileTheOutputsAreClosedEndsTheProcess) {
     verifies("SWR-PRT-026", Technique::kErrorGuessing, Polarity::kViolation);
     const int faulty = run([this](Child&) { give_up(*shared_); }, {},
                            [](void* self) noexcept {
@@ -451,7 +455,7 @@ TEST_F(CrashHandlersTest, HandlerThatHangsIsEndedByTheWatchdog) {
     expect_killed_by(status, SIGABRT);
 }
 
-TEST_F(CrashHandlersTest, WithoutAFileTheOutputsAreClosedAllTheSame) {
+TEST_F(CrashHandlersTest, WithoutAFileTheOutputsAreClosed) {
     verifies("SWR-PRT-026");
     const int status = run([this](Child& self) {
         self.handlers.remove();
@@ -466,7 +470,7 @@ TEST_F(CrashHandlersTest, WithoutAFileTheOutputsAreClosedAllTheSame) {
     EXPECT_EQ(read_crash_note({bytes.data(), bytes.size()}, note), CrashNoteState::kEmpty);
 }
 
-TEST_F(CrashHandlersTest, OrderlyEndLeavesNoNoteAndTheOldNoteStays) {
+TEST_F(CrashHandlersTest, OrderlyEndWritesNoRecordAndKeepsThePreviousOne) {
     verifies("SWR-PRT-027");
     CrashNote note;
     EXPECT_EQ(WEXITSTATUS(run([](Child&) {})), 3);
@@ -478,7 +482,7 @@ TEST_F(CrashHandlersTest, OrderlyEndLeavesNoNoteAndTheOldNoteStays) {
     EXPECT_EQ(shared_->closings, 0);
 }
 
-TEST_F(CrashHandlersTest, PlanThatCannotBeFollowedIsRefusedAndSoAreSecondHandlers) {
+TEST_F(CrashHandlersTest, InvalidPlanAndSecondHandlersAreRejected) {
     verifies("SWR-PRT-026", Technique::kEquivalenceClasses, Polarity::kViolation);
     MappedFile file;
     ASSERT_EQ(file.open(path_.c_str(), calc_recorder_file_size(1U)), Status::kOk);

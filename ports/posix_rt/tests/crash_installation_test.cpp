@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: one owner has the crash handlers, and only this owner takes them away. Method: the actions of the
-// signals are read back from the system.
+// Goal: one object owns the crash handlers, and only this object removes them. Method: the test reads the
+// signal actions back from the system.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -23,7 +23,7 @@ CrashPlan make_plan() {
     return {[](void*) noexcept {}, nullptr, {}, 0U, FrameClock::starting_in(Duration{0})};
 }
 
-TEST(CrashInstallationTest, OneThatIsNotInstalledTakesNothingFromTheOwner) {
+TEST(CrashInstallationTest, ObjectThatIsNotInstalledRemovesNothing) {
     verifies("SWR-PRT-026", Technique::kErrorGuessing, Polarity::kViolation);
     const struct sigaction before = read_action(SIGBUS);
     CrashHandlers owner;
@@ -42,13 +42,13 @@ TEST(CrashInstallationTest, OneThatIsNotInstalledTakesNothingFromTheOwner) {
             << signal;
     }
     CrashHandlers third;
-    EXPECT_EQ(third.install(make_plan()), Status::kPreconditionNotMet) << "the owner still has them";
+    EXPECT_EQ(third.install(make_plan()), Status::kPreconditionNotMet) << "the owner is still installed";
     owner.remove();
     EXPECT_EQ(read_action(SIGBUS).sa_sigaction, before.sa_sigaction);
     EXPECT_EQ(third.install(make_plan()), Status::kOk);
 }
 
-TEST(CrashInstallationTest, APlanThatClosesNothingIsRefused) {
+TEST(CrashInstallationTest, PlanWithoutAClosingFunctionIsRejected) {
     verifies("SWR-PRT-026", Technique::kBoundaryValues, Polarity::kViolation);
     const struct sigaction before = read_action(SIGBUS);
     CrashHandlers sut;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a note is read as it was written, any damage shows, and the recorder before it is not touched.
-// Method: golden bytes, every change of one bit, and a recorder over the same file.
+// Goal: a crash record is read as it was written, any damage is detected, and the recorder before it is
+// unchanged. Method: golden bytes, every change of one bit, and a recorder over the same file.
 #include "mamori/ports/posix_rt/crash_note.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(CrashNoteTest, BytesAreThoseOfTheFormat) {
     EXPECT_EQ(encode_crash_note(kNote), kGolden);
 }
 
-TEST(CrashNoteTest, WhatWasWrittenIsRead) {
+TEST(CrashNoteTest, WrittenRecordIsRead) {
     verifies("SWR-PRT-027");
     for (const CrashNote& note : {kNote, CrashNote{{}, 0U, 1U, {}, SIGABRT, false}}) {
         CrashNote read;
@@ -46,7 +46,7 @@ TEST(CrashNoteTest, WhatWasWrittenIsRead) {
     }
 }
 
-TEST(CrashNoteTest, ZerosAreNoCrashAndEachOtherChangeIsDamage) {
+TEST(CrashNoteTest, ZerosAreNoCrashAndEachFlippedBitIsDamage) {
     verifies("SWR-PRT-027", Technique::kFaultInjection, Polarity::kViolation);
     CrashNote read = kNote;
     EXPECT_EQ(decode_crash_note({}, read), CrashNoteState::kEmpty);
@@ -81,11 +81,12 @@ TEST(CrashNoteTest, RecorderBeforeItIsUntouched) {
     expect_same(read, kNote);
     EXPECT_TRUE(std::equal(before.begin(), before.end() - kCrashNoteSize, file.begin()));
     FlightReader reader;
-    EXPECT_EQ(reader.open({file.data(), file.size()}), Status::kOk) << "one that knows of no notes";
+    EXPECT_EQ(reader.open({file.data(), file.size()}), Status::kOk)
+        << "reader without support for crash records";
     EXPECT_EQ(reader.get_capacity(), 2U);
 }
 
-TEST(CrashNoteTest, PlaceBelongsToItsThreadAndWhatIsTooLargeIsNone) {
+TEST(CrashNoteTest, PositionIsPerThreadAndAnIndexThatIsTooLargeIsNone) {
     verifies("SWR-PRT-027", Technique::kBoundaryValues);
     clear_crash_place();
     EXPECT_EQ(get_crash_place().window, CrashPlace::kNone);

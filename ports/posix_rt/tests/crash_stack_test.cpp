@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a thread has a stack of its own for crash handlers while it holds one, and its old one after that.
-// Method: the system is asked.
+// Goal: a thread has the alternate signal stack between take() and give_back(), and the previous one
+// afterwards. Method: the test reads the stack with sigaltstack().
 #include "mamori/ports/posix_rt/crash_stack.hpp"
 
 #include <gtest/gtest.h>

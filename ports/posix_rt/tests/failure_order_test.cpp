@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a failure of a second thread does not end the process while the first one closes the outputs, and a
-// handler that hangs does not keep the process alive. Method: processes in which one thread's handler takes
-// its time, and another thread fails meanwhile, by a check and by a crash; their parent sees what was done.
+// handler that hangs does not keep the process alive. Method: processes in which the handler of one thread
+// takes long and another thread fails meanwhile, by a check and by a crash. Their parent checks the actions.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -28,12 +28,12 @@ namespace {
 using namespace verification;
 using literals::operator""_ms;
 
-constexpr int kHandled = 7;  ///< exit status of a process whose handler came to its end
+constexpr int kHandled = 7;  ///< exit status of a process whose handler has returned
 
-/// What parent and child both see.
+/// Data that parent and child share.
 struct Shared {
     std::atomic<bool> is_in_handler{false};
-    std::atomic<int> handled{0};   ///< failed checks whose handler came to its end
+    std::atomic<int> handled{0};   ///< failed checks whose handler has returned
     std::atomic<int> closings{0};  ///< by the plan of a crash
 };
 Shared* g_shared = nullptr;
@@ -144,12 +144,12 @@ TEST_F(FailureOrderTest, CrashOfASecondThreadClosesTheOutputsAtOnceAndWaitsForTh
     EXPECT_EQ(g_shared->closings, 1);
 }
 
-TEST_F(FailureOrderTest, HandlerThatReturnsEndsTheWaitingOfACrash) {
+TEST_F(FailureOrderTest, HandlerThatReturnsEndsTheWaitOfACrash) {
     verifies("SWR-PRT-045", Technique::kFaultInjection, Polarity::kViolation);
     const FrameClock clock = FrameClock::starting_in(0_ms);
     const int status = run_both(&fail, &crash, &close_slowly_and_return);
     EXPECT_TRUE(WIFSIGNALED(status));
-    EXPECT_EQ(WTERMSIG(status), SIGSEGV) << "of the crash, which handled it";
+    EXPECT_EQ(WTERMSIG(status), SIGSEGV) << "the crash ends the process";
     EXPECT_EQ(g_shared->handled, 1);
     EXPECT_EQ(g_shared->closings, 1);
     EXPECT_GE(clock.get_now(), Instant{0} + 200_ms);
@@ -173,14 +173,15 @@ TEST_F(FailureOrderTest, CrashOfASecondThreadWaitsForTheCrashOfTheFirst) {
     EXPECT_EQ(g_shared->closings, 1);
 }
 
-TEST_F(FailureOrderTest, HandlerThatHangsKeepsTheProcessForASecondOnly) {
+TEST_F(FailureOrderTest, HandlerThatHangsDelaysTheEndByOneSecondOnly) {
     verifies("SWR-PRT-045", Technique::kBoundaryValues, Polarity::kViolation);
     for (void (*const second)() : {&fail, &crash}) {
         g_shared->is_in_handler = false;
         const FrameClock clock = FrameClock::starting_in(0_ms);
         const int status = run_both(&fail, second, &hang);
         EXPECT_TRUE(WIFSIGNALED(status)) << "the hang would end by itself after a minute";
-        EXPECT_GE(clock.get_now(), Instant{0} + 1000_ms) << "not before the time of the first is over";
+        EXPECT_GE(clock.get_now(), Instant{0} + 1000_ms)
+            << "not before the wait for the first thread has timed out";
         EXPECT_LT(clock.get_now(), Instant{0} + 50'000_ms);
     }
     EXPECT_EQ(g_shared->handled, 0);
@@ -216,7 +217,7 @@ TEST_F(FailureOrderTest, FailedCheckWithCrashHandlersPrintsItsLineOnceAndClosesT
     EXPECT_EQ(g_shared->closings, 1);
 }
 
-/// Ways into the real-time port, each of which brings the waiting with it.
+/// Functions of the real-time port that install the failure gate.
 void open_host() {
     static std::array<WindowThread, 1U> threads;
     static const FrameClock clock = FrameClock::starting_in(0_ms);

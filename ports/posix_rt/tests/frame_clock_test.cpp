@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the time line begins at its epoch, and a sleep ends at its instant or later, whatever interrupts it.
-// Method: instants on both sides of the epoch and of whole seconds; a timer that sends signals meanwhile.
+// Goal: the time line begins at its epoch, and a sleep ends at its instant or later, also with interruptions.
+// Method: instants on both sides of the epoch and of full seconds; a timer that sends signals meanwhile.
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ std::int64_t to_ns(const timespec& time) {
     return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
 }
 
-TEST(FrameClockTest, TheEpochLiesAheadAndTimeRunsTowardsIt) {
+TEST(FrameClockTest, TheEpochIsInTheFutureAtFirst) {
     verifies("SWR-PRT-001");
     const FrameClock sut = FrameClock::starting_in(3600_s);
 
@@ -52,7 +52,7 @@ TEST(FrameClockTest, InstantsAreThoseOfTheMonotonicClock) {
     EXPECT_EQ(to_ns(sut.to_timespec(Instant{-epoch - 1})), 0) << "before the clock's own zero";
 }
 
-TEST(FrameClockTest, ASleepThatSignalsInterruptEndsNoSooner) {
+TEST(FrameClockTest, AnInterruptedSleepDoesNotEndEarly) {
     verifies("SWR-PRT-001", Technique::kFaultInjection, Polarity::kViolation);
     static volatile std::sig_atomic_t g_signals = 0;
     struct sigaction action{};
@@ -79,7 +79,7 @@ TEST(FrameClockTest, AnInstantThatHasPassedIsNotWaitedFor) {
 
     sut.wait_until(Instant{0} - 1_s);
     sut.wait_until(sut.get_now());
-    SUCCEED() << "it came back";
+    SUCCEED() << "wait_until() returned";
 }
 
 TEST(FrameClockTest, AnEpochInThePastIsAContractViolation) {
@@ -102,7 +102,7 @@ TEST(FrameClockTest, SumsStayWithinTheRangeOnBothSidesOfItsEnds) {
     EXPECT_EQ(add_saturating(kFirst, Duration{kLast.ns}), Instant{-1});
 }
 
-TEST(FrameClockTest, AnInstantBeyondTheRangeLiesAheadAndHasNotPassed) {
+TEST(FrameClockTest, AnInstantBeyondTheRangeIsInTheFuture) {
     verifies("SWR-PRT-044", Technique::kBoundaryValues, Polarity::kViolation);
     FakeClock source{1'000};
     const FrameClock sut = FrameClock::starting_in(Duration{0}, source);
@@ -114,7 +114,7 @@ TEST(FrameClockTest, AnInstantBeyondTheRangeLiesAheadAndHasNotPassed) {
     sut.wait_until(kLast);
     EXPECT_EQ(source.slept_until_ns, kLast.ns);
     const FrameClock never = FrameClock::starting_in(Duration{kLast.ns}, source);
-    EXPECT_LT(never.get_now(), Instant{0}) << "an epoch at the end of the range lies ahead, too";
+    EXPECT_LT(never.get_now(), Instant{0}) << "an epoch at the end of the range is in the future, too";
 }
 
 }  // namespace

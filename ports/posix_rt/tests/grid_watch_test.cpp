@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: what the runner of a core does not do in time is found by someone else, who closes the outputs and
-// stays with it. Method: the judgement with a clock that the test moves, on both sides of each limit; the
-// thread with runners that really hang, in a sleep and in the wait of their guard. Nothing is asked of the
-// speed of the machine: what must come is waited for, and what must not come has an hour.
+// Goal: the watch finds an action that the runner of a core does not do in time, closes the outputs and
+// latches the finding. Method: the evaluation with a clock that the test sets, on both sides of each limit;
+// the thread with runners that hang in a sleep and in the wait of their guard. The tests do not depend on the
+// speed of the host: they wait for expected events, and unexpected events have a limit of one hour.
 #include "mamori/ports/posix_rt/grid_watch.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ struct TestSystem {
 
 constexpr GridLimits kLimits{1_ms, 200_us, {10_ms, 5000}};
 
-/// One beat and the judgement, with both clocks in the hand of the test.
+/// One beat and the check, with two clocks that the test sets.
 class GridCheckTest : public ::testing::Test {
   protected:
     GridFinding look_at(Instant now) { return sut_.look({now, now.ns, Duration{0}}); }
@@ -63,7 +63,7 @@ class GridCheckTest : public ::testing::Test {
     GridCheck sut_{beats_, kLimits};
 };
 
-TEST_F(GridCheckTest, NothingIsDueBeforeTheFirstOpeningAndAfterARest) {
+TEST_F(GridCheckTest, NothingIsDueBeforeTheFirstWindowAndAfterARest) {
     verifies("SWR-PRT-031", Technique::kStateTransition);
     EXPECT_EQ(look_at(Instant{0} + 3600_s).fault, GridFault::kNone);
     beats_[0].expect(Instant{0});
@@ -72,13 +72,13 @@ TEST_F(GridCheckTest, NothingIsDueBeforeTheFirstOpeningAndAfterARest) {
     EXPECT_EQ(look_at(Instant{0} + 3602_s).fault, GridFault::kNone);
 }
 
-TEST_F(GridCheckTest, AWindowMustOpenAtItsInstantAndBeOverAtItsClose) {
+TEST_F(GridCheckTest, AWindowMustStartAndEndAtItsPlannedInstants) {
     verifies("SWR-PRT-031");
     GridBeat& beat = beats_[0];
     beat.expect(Instant{1});
-    EXPECT_EQ(beat.get_due(), Instant{0} + 5_ms) << "the first window that opens then or later";
+    EXPECT_EQ(beat.get_due(), Instant{0} + 5_ms) << "the first window that starts then or later";
     beat.before_opening({1U, Instant{0} + 5_ms}, Instant{0} + 6_ms);
-    EXPECT_EQ(beat.get_due(), Instant{0} + 9_ms) << "however late it opened";
+    EXPECT_EQ(beat.get_due(), Instant{0} + 9_ms) << "also after a late start";
     beat.after_opening({1U, Instant{0} + 5_ms}, WindowOutcome::kCompleted);
     EXPECT_EQ(beat.get_due(), Instant{0} + 10_ms);
     beat.before_opening({0U, Instant{0} + 10_ms}, Instant{0} + 10_ms);
@@ -87,7 +87,7 @@ TEST_F(GridCheckTest, AWindowMustOpenAtItsInstantAndBeOverAtItsClose) {
     EXPECT_EQ(beat.get_due(), Instant{0} + 15_ms);
 }
 
-TEST_F(GridCheckTest, WhatIsDueIsOverdueJustAfterTheLatenessAndItsCoreIsNamed) {
+TEST_F(GridCheckTest, AnActionIsOverdueJustAfterTheLatenessAndItsCoreIsNamed) {
     verifies("SWR-PRT-031", Technique::kBoundaryValues, Polarity::kViolation);
     beats_[0].expect(Instant{0} + 10_ms);
     beats_[1].expect(Instant{0} + 5_ms);
@@ -103,7 +103,7 @@ TEST_F(GridCheckTest, WhatIsDueIsOverdueJustAfterTheLatenessAndItsCoreIsNamed) {
     EXPECT_EQ(look_at(Instant{1} + 11_ms).core, 0U);
 }
 
-TEST_F(GridCheckTest, ALatenessWithoutAnEndIsNeverReached) {
+TEST_F(GridCheckTest, AnInfiniteLatenessIsNeverExceeded) {
     verifies("SWR-PRT-044", Technique::kBoundaryValues, Polarity::kViolation);
     constexpr std::int64_t kLongest = std::numeric_limits<std::int64_t>::max();
     GridCheck sut{beats_, {Duration{kLongest}, 200_us, {10_ms, 5000}}};
@@ -111,19 +111,19 @@ TEST_F(GridCheckTest, ALatenessWithoutAnEndIsNeverReached) {
     EXPECT_EQ(sut.look({Instant{0} + 3600_s, (Instant{0} + 3600_s).ns, Duration{0}}).fault, GridFault::kNone);
 }
 
-TEST_F(GridCheckTest, AClockOfTheWrongRateIsToldBeforeWhatIsOverdueByIt) {
+TEST_F(GridCheckTest, AWrongClockRateHasPriorityOverAnOverdueAction) {
     verifies("SWR-PRT-032", Technique::kFaultInjection, Polarity::kViolation);
     beats_[0].expect(Instant{0});
     ASSERT_EQ(sut_.look({Instant{0}, 0, {}}).fault, GridFault::kNone);
 
     EXPECT_EQ(sut_.look({Instant{2'050'001}, 2'000'000, {}}).fault, GridFault::kFastClock);
-    ASSERT_EQ(sut_.look({Instant{2'100'000}, 3'000'000, {}}).fault, GridFault::kOverdue) << "begins anew";
+    ASSERT_EQ(sut_.look({Instant{2'100'000}, 3'000'000, {}}).fault, GridFault::kOverdue) << "begins again";
     beats_[0].rest();
     ASSERT_EQ(sut_.look({Instant{2'200'000}, 4'000'000, {}}).fault, GridFault::kNone);
     EXPECT_EQ(sut_.look({Instant{2'200'000}, 4'050'001, {}}).fault, GridFault::kSlowClock);
 }
 
-TEST_F(GridCheckTest, AListenerBehindABeatIsToldEverythingFirst) {
+TEST_F(GridCheckTest, AnInnerObserverIsCalledFirst) {
     verifies("SWR-PRT-031", Technique::kInterface);
     class Inner final : public OpeningObserver {
       public:
@@ -142,11 +142,11 @@ TEST_F(GridCheckTest, AListenerBehindABeatIsToldEverythingFirst) {
 
     beat.before_opening({0U, Instant{0}}, Instant{0});
     beat.after_opening({0U, Instant{0}}, WindowOutcome::kCompleted);
-    EXPECT_EQ(inner.due, Instant{0}) << "still due while the listener is at work";
+    EXPECT_EQ(inner.due, Instant{0}) << "still due while the observer runs";
     EXPECT_EQ(inner.count, 2);
 }
 
-/// The thread, on a grid of its own that a runner works off in another thread.
+/// The thread with a schedule that a runner executes in another thread.
 class GridWatchTest : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -188,7 +188,8 @@ class GridWatchTest : public ::testing::Test {
     }
     static void shut(void* argument) noexcept { ++static_cast<GridWatchTest*>(argument)->shut_count_; }
 
-    /// Much patience: what really hangs is overdue after a second, and the clock is never off by a half.
+    /// Large limits: a hanging runner is overdue after 1 s, and the deviation of the clock never reaches 50
+    /// %.
     static constexpr GridLimits kPatient{1_s, 200_us, {10_ms, 500'000}};
 
     TestSystem system_;
@@ -204,7 +205,7 @@ class GridWatchTest : public ::testing::Test {
     std::thread running_;
 };
 
-TEST_F(GridWatchTest, ATickThatDoesNotComeClosesTheOutputsWithoutTheRunner) {
+TEST_F(GridWatchTest, AMissingTimerExpiryClosesTheOutputsWithoutTheRunner) {
     verifies("SWR-PRT-031", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(sut_.open(), Status::kOk);
     run_for_ever();
@@ -221,16 +222,16 @@ TEST_F(GridWatchTest, ATickThatDoesNotComeClosesTheOutputsWithoutTheRunner) {
     EXPECT_EQ(shut_count_, 1);
 }
 
-TEST_F(GridWatchTest, AGuardThatHangsWithItsComponentIsFoundAtTheCloseOfTheWindow) {
+TEST_F(GridWatchTest, AGuardThatHangsWithItsComponentIsFoundAtTheEndOfTheWindow) {
     verifies("SWR-PRT-031", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(sut_.open(), Status::kOk);
     system_.first.is_to_hang = true;
     source_.is_stuck = false;
-    // The deadline of the guard never comes, its sleep before the window does: stuck between the two.
+    // The timers stop after the sleep before the window, so that only the deadline of the guard never comes.
     beats_[0].expect(clock_.get_now());
     running_ = std::thread{[this] {
         WindowOutcome outcome = WindowOutcome::kMissed;
-        while (outcome == WindowOutcome::kMissed) {  // by a machine that stood still in between
+        while (outcome == WindowOutcome::kMissed) {  // because the host stalled
             source_.is_stuck = false;
             const Instant release{(clock_.get_now().ns / 10'000'000 + 1) * 10'000'000};
             clock_.wait_until(release);
@@ -243,11 +244,11 @@ TEST_F(GridWatchTest, AGuardThatHangsWithItsComponentIsFoundAtTheCloseOfTheWindo
 
     wait_until_latched();
     EXPECT_EQ(sut_.get_finding().fault, GridFault::kOverdue);
-    EXPECT_EQ(sut_.get_finding().due.ns % 10'000'000, 3'000'000) << "the close of the window";
+    EXPECT_EQ(sut_.get_finding().due.ns % 10'000'000, 3'000'000) << "the planned end of the window";
     EXPECT_EQ(shut_count_, 1);
 }
 
-TEST_F(GridWatchTest, AFindingStaysWithItsFirstCauseAndTheOutputsAreClosedOnce) {
+TEST_F(GridWatchTest, AFindingKeepsItsFirstCauseAndTheOutputsAreClosedOnce) {
     verifies("SWR-PRT-033", Technique::kFaultInjection, Polarity::kViolation);
     beats_[0].expect(clock_.get_now() + 10_ms);
     const Instant due = beats_[0].get_due();
@@ -257,7 +258,7 @@ TEST_F(GridWatchTest, AFindingStaysWithItsFirstCauseAndTheOutputsAreClosedOnce) 
 
     beats_[0].rest();
     wait_for_looks(3U);
-    EXPECT_TRUE(sut_.is_latched()) << "though nothing is overdue any more";
+    EXPECT_TRUE(sut_.is_latched()) << "though nothing is overdue now";
     beats_[0].expect(Instant{0});
     wait_for_looks(3U);
     EXPECT_EQ(sut_.get_finding().due, due);
@@ -266,7 +267,7 @@ TEST_F(GridWatchTest, AFindingStaysWithItsFirstCauseAndTheOutputsAreClosedOnce) 
     EXPECT_TRUE(sut_.is_latched());
 }
 
-TEST_F(GridWatchTest, AResetIsRefusedUntilNothingWasWrongForASpanAndThenWatchesAnew) {
+TEST_F(GridWatchTest, AResetIsRejectedUntilASpanHadNoViolationAndThenMonitoringResumes) {
     verifies("SWR-PRT-033", Technique::kStateTransition, Polarity::kViolation);
     ASSERT_EQ(sut_.open(), Status::kOk);
     EXPECT_EQ(sut_.reset(), Status::kPreconditionNotMet) << "nothing is latched";
@@ -286,7 +287,7 @@ TEST_F(GridWatchTest, AResetIsRefusedUntilNothingWasWrongForASpanAndThenWatchesA
     EXPECT_EQ(shut_count_, 2);
 }
 
-TEST_F(GridWatchTest, AResetIsRefusedBeforeTheEndOfASpanThoughNothingIsWrong) {
+TEST_F(GridWatchTest, AResetIsRejectedBeforeTheEndOfASpanWithoutViolation) {
     verifies("SWR-PRT-033", Technique::kBoundaryValues, Polarity::kViolation);
     constexpr GridLimits kLongSpan{Duration{0}, 200_us, {3600_s, 500'000}};
     GridWatch sut{beats_, clock_, get_raw_clock(), kLongSpan, {&shut, this}, {}};
@@ -306,7 +307,7 @@ TEST_F(GridWatchTest, AResetIsRefusedBeforeTheEndOfASpanThoughNothingIsWrong) {
     sut.close();
 }
 
-TEST_F(GridWatchTest, ARunInTimeIsNotReportedAndAnEndOnPurposeNeither) {
+TEST_F(GridWatchTest, ARunInTimeAndADeliberateEndAreNotReported) {
     verifies("SWR-PRT-031");
     constexpr GridLimits kHour{3600_s, 200_us, {10_ms, 500'000}};
     GridWatch sut{beats_, clock_, get_raw_clock(), kHour, {&shut, this}, {}};
@@ -316,7 +317,7 @@ TEST_F(GridWatchTest, ARunInTimeIsNotReportedAndAnEndOnPurposeNeither) {
     beats_[0].rest();
 
     EXPECT_GT(sut.get_look_count(), 0U);
-    EXPECT_FALSE(sut.is_latched()) << "unless the machine stood still for an hour";
+    EXPECT_FALSE(sut.is_latched()) << "unless the host stalled for an hour";
     EXPECT_EQ(shut_count_, 0);
     sut.close();
     sut.close();

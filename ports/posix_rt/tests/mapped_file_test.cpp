@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a file is mapped whole or refused with its cause, and nothing is left of a refused one. Method: real
-// files in a folder of the test; as root, the permissions of another user.
+// Goal: a file is mapped completely or rejected with the cause, and a failed call leaves no new file. Method:
+// real files in a folder of the test; as root, the permissions of another user.
 #include "mamori/ports/posix_rt/mapped_file.hpp"
 
 #include <sys/stat.h>
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace verification;
 
-constexpr std::size_t kSize = 5000U;  // no whole number of pages
+constexpr std::size_t kSize = 5000U;  // not a multiple of the page size
 
 class MappedFileTest : public ::testing::Test {
   protected:
@@ -45,7 +45,7 @@ class MappedFileTest : public ::testing::Test {
     MappedFile sut_;
 };
 
-TEST_F(MappedFileTest, ANewFileIsOpenedOnceWhateverFailedBefore) {
+TEST_F(MappedFileTest, ANewFileIsOpenedOnceAlsoWithAStaleErrno) {
     verifies("SWR-REC-010", Technique::kErrorGuessing);
     const auto count_descriptors = [] {
         const fs::directory_iterator all{"/proc/self/fd"};
@@ -60,7 +60,7 @@ TEST_F(MappedFileTest, ANewFileIsOpenedOnceWhateverFailedBefore) {
     EXPECT_EQ(count_descriptors(), before);
 }
 
-TEST_F(MappedFileTest, NewFileHasItsSizeAndIsFullOfZeros) {
+TEST_F(MappedFileTest, NewFileHasItsSizeAndIsZeroFilled) {
     verifies("SWR-REC-010");
     ASSERT_EQ(sut_.open(path_.c_str(), kSize), Status::kOk);
 
@@ -74,7 +74,7 @@ TEST_F(MappedFileTest, NewFileHasItsSizeAndIsFullOfZeros) {
     }
 }
 
-TEST_F(MappedFileTest, WhatWasStoredIsInTheFileAndComesBack) {
+TEST_F(MappedFileTest, StoredDataIsInTheFileAndIsReadAgain) {
     verifies("SWR-REC-010", Technique::kStateTransition);
     ASSERT_EQ(sut_.open(path_.c_str(), kSize), Status::kOk);
     sut_.get_region()[0U] = std::byte{'a'};
@@ -89,7 +89,7 @@ TEST_F(MappedFileTest, WhatWasStoredIsInTheFileAndComesBack) {
     EXPECT_EQ(sut_.get_region()[kSize - 1U], std::byte{'z'});
 }
 
-TEST_F(MappedFileTest, FileOfAnotherSizeIsRefusedAndLeftAsItWas) {
+TEST_F(MappedFileTest, FileOfAnotherSizeIsRejectedAndUnchanged) {
     verifies("SWR-REC-010", Technique::kBoundaryValues, Polarity::kViolation);
     for (const std::size_t size : {kSize - 1U, kSize + 1U}) {
         std::ofstream{path_, std::ios::binary} << std::string(size, 'x');
@@ -100,7 +100,7 @@ TEST_F(MappedFileTest, FileOfAnotherSizeIsRefusedAndLeftAsItWas) {
     EXPECT_EQ(sut_.open(path_.c_str(), kSize), Status::kOk) << "an empty file is a new one";
 }
 
-TEST_F(MappedFileTest, WhatIsNoFileIsRefused) {
+TEST_F(MappedFileTest, IrregularFileIsRejected) {
     verifies("SWR-REC-010", Technique::kEquivalenceClasses, Polarity::kViolation);
     expect_refused(sut_.open(folder_.c_str(), kSize), MappedFileError::kNotRegular);
     expect_refused(sut_.open("/dev/null", kSize), MappedFileError::kNotRegular);
@@ -108,16 +108,16 @@ TEST_F(MappedFileTest, WhatIsNoFileIsRefused) {
     expect_refused(sut_.open(path_.c_str(), kSize), MappedFileError::kNotRegular);
 }
 
-TEST_F(MappedFileTest, FolderThatIsNotThereIsTheCause) {
+TEST_F(MappedFileTest, MissingFolderIsTheCause) {
     verifies("SWR-REC-010", Technique::kErrorGuessing, Polarity::kViolation);
     expect_refused(sut_.open((folder_ / "gone" / "events.rec").c_str(), kSize), MappedFileError::kCannotOpen);
     EXPECT_EQ(sut_.get_system_error(), ENOENT);
 }
 
-TEST_F(MappedFileTest, FolderThatMayOnlyBeReadIsTheCause) {
+TEST_F(MappedFileTest, ReadOnlyFolderIsTheCause) {
     verifies("SWR-REC-010", Technique::kErrorGuessing, Polarity::kViolation);
     fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_exec);
-    constexpr uid_t kNobody = 65534U;  // root may write everywhere
+    constexpr uid_t kNobody = 65534U;  // root can write everywhere
     const bool is_root = ::geteuid() == 0U;
     ASSERT_TRUE(!is_root || ::seteuid(kNobody) == 0);
 
@@ -128,7 +128,7 @@ TEST_F(MappedFileTest, FolderThatMayOnlyBeReadIsTheCause) {
     EXPECT_EQ(sut_.get_system_error(), EACCES);
 }
 
-TEST_F(MappedFileTest, SecondUserIsRefusedUntilTheFirstIsGone) {
+TEST_F(MappedFileTest, SecondUserIsRejectedUntilTheFirstHasClosedTheFile) {
     verifies("SWR-REC-010", Technique::kStateTransition, Polarity::kViolation);
     {
         MappedFile first;
@@ -140,7 +140,7 @@ TEST_F(MappedFileTest, SecondUserIsRefusedUntilTheFirstIsGone) {
     EXPECT_EQ(sut_.open(path_.c_str(), kSize), Status::kOk);
 }
 
-TEST_F(MappedFileTest, FileThatFindsNoSpaceLeavesNothingBehind) {
+TEST_F(MappedFileTest, FileWithoutSpaceIsRemovedAgain) {
     verifies("SWR-REC-010", Technique::kFaultInjection, Polarity::kViolation);
     const Status status = sut_.open(path_.c_str(), std::size_t{1U} << 60U);
 
@@ -150,7 +150,7 @@ TEST_F(MappedFileTest, FileThatFindsNoSpaceLeavesNothingBehind) {
     EXPECT_FALSE(fs::exists(path_));
 }
 
-TEST_F(MappedFileTest, ArgumentsOutOfRangeAreRefused) {
+TEST_F(MappedFileTest, ArgumentsOutOfRangeAreRejected) {
     verifies("SWR-REC-010", Technique::kBoundaryValues, Polarity::kViolation);
     EXPECT_EQ(sut_.open(nullptr, kSize), Status::kBadParameter);
     EXPECT_EQ(sut_.open(path_.c_str(), 0U), Status::kBadParameter);
@@ -161,7 +161,7 @@ TEST_F(MappedFileTest, ArgumentsOutOfRangeAreRefused) {
     EXPECT_EQ(sut_.open(path_.c_str(), 1U), Status::kOk);
 }
 
-TEST_F(MappedFileTest, EachErrorHasASentence) {
+TEST_F(MappedFileTest, EachErrorHasAMessage) {
     verifies("SWR-REC-010");
     for (int error = 0; error <= static_cast<int>(MappedFileError::kCannotMap); ++error) {
         EXPECT_GT(std::string{describe(static_cast<MappedFileError>(error))}.size(), 5U);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the owner of a partition leaves no zombie and no descriptor, and signals no process that got the
-// number of an ended one. Method: the test waits for the partition before its owner does and gives its number
-// to a process of its own; system calls are refused to show the paths of older and exhausted systems.
+// Goal: the owner of a partition leaves no zombie and no descriptor, and never signals a process that reuses
+// the id of an ended partition. Method: the test waits for the partition before its owner does and assigns
+// its id to another process. System calls are rejected to execute the paths for older and exhausted systems.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/sched.h>
@@ -36,11 +36,11 @@ std::ptrdiff_t count_descriptors() {
 }
 
 void expect_no_child() {
-    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a child is left";
+    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a child remains";
     EXPECT_EQ(errno, ECHILD);
 }
 
-/// Waits for the process itself, before its owner has seen the end.
+/// Waits for the process before its owner has seen the end.
 void steal_end(pid_t pid) {
     int status = 0;
     EXPECT_EQ(::waitpid(pid, &status, 0), pid);
@@ -55,7 +55,7 @@ bool knows_groups_by_descriptor() {
     return is_known;
 }
 
-/// A process with a given number and a group of this number, which ends when it is told to.
+/// A process with a given id and a group of the same id. It ends on request.
 class Bystander final {
   public:
     explicit Bystander(pid_t number) {
@@ -84,7 +84,7 @@ class Bystander final {
     }
     bool is_there() const { return pid_ > 0; }
     bool is_alive() const {
-        static_cast<void>(::poll(nullptr, 0U, 20));  // a signal would have come by then
+        static_cast<void>(::poll(nullptr, 0U, 20));  // time for a signal to arrive
         return ::waitpid(pid_, nullptr, WNOHANG) == 0;
     }
 
@@ -92,7 +92,7 @@ class Bystander final {
     pid_t pid_{-1};
 };
 
-/// Ends an owner whose partition was killed and waited for by the test, when its number has a new owner.
+/// The test kills a partition, waits for it, reuses its id, and then destroys the owner of the partition.
 void expect_that_a_reused_number_is_left_alone() {
     for (int round = 0; round < 3; ++round) {
         PartitionProcess sut;
@@ -134,7 +134,7 @@ TEST(PartitionLifeTest, AThousandCyclesLeaveNoZombieAndNoDescriptor) {
         EXPECT_EQ(ended.end(), Status::kOk);
         EXPECT_EQ(wait_for_end(ended), PartitionState::kEnded);
         ASSERT_EQ(ended.start({"/bin/true", {}, {}, nullptr, {}}), Status::kOk);
-        ASSERT_EQ(wait_for_end(ended), PartitionState::kEnded) << "by itself";
+        ASSERT_EQ(wait_for_end(ended), PartitionState::kEnded) << "the process has exited";
         ASSERT_EQ(ended.start({"/no/such/program", {}, {}, nullptr, {}}), Status::kError);
         PartitionProcess destroyed;
         ASSERT_EQ(destroyed.start({"/bin/sleep", kForLong, {}, nullptr, {}}), Status::kOk);
@@ -165,10 +165,10 @@ TEST(PartitionLifeTest, SignalsToTheOwnerLeaveNoZombie) {
     expect_no_child();
 }
 
-TEST(PartitionLifeTest, AProcessThatGotTheNumberIsLeftAlone) {
+TEST(PartitionLifeTest, AProcessThatReusesTheIdGetsNoSignal) {
     verifies("SWR-PRT-061", Technique::kFaultInjection, Polarity::kViolation);
     if (!may_choose_numbers()) {
-        GTEST_SKIP() << "verdict=no-privilege: only root may choose the number of a process (CAP_SYS_ADMIN)";
+        GTEST_SKIP() << "verdict=no-privilege: only root may choose the id of a process (CAP_SYS_ADMIN)";
     }
     expect_that_a_reused_number_is_left_alone();
     EXPECT_EQ(run_in_process([] {
@@ -179,10 +179,10 @@ TEST(PartitionLifeTest, AProcessThatGotTheNumberIsLeftAlone) {
         << "before Linux 6.9";
 }
 
-TEST(PartitionLifeTest, TheGroupOfOneThatWasWaitedForEndsToo) {
+TEST(PartitionLifeTest, TheGroupOfAnAlreadyReapedProcessEndsToo) {
     verifies("SWR-PRT-061", Technique::kFaultInjection, Polarity::kViolation);
     if (!knows_groups_by_descriptor()) {
-        GTEST_SKIP() << "verdict=not-shown: before Linux 6.9 a group has no descriptor";
+        GTEST_SKIP() << "verdict=not-shown: before Linux 6.9, a group has no descriptor";
     }
     Line line;
     const std::array<const char*, 2U> arguments{"-c", "sleep 1000 & exit 0"};
@@ -196,7 +196,7 @@ TEST(PartitionLifeTest, TheGroupOfOneThatWasWaitedForEndsToo) {
     EXPECT_EQ(line.read_all(), "");
 }
 
-TEST(PartitionLifeTest, OlderSystemsEndTheGroupByItsNumber) {
+TEST(PartitionLifeTest, OlderSystemsEndTheGroupByItsId) {
     verifies("SWR-PRT-061", Technique::kFaultInjection, Polarity::kViolation);
     Line line;
     EXPECT_EQ(run_in_process([&line] {
@@ -218,7 +218,7 @@ TEST(PartitionLifeTest, OlderSystemsEndTheGroupByItsNumber) {
     EXPECT_EQ(line.read_all(), "");
 }
 
-TEST(PartitionLifeTest, OneThatTheSystemWaitsForIsSeenToEnd) {
+TEST(PartitionLifeTest, TheEndIsDetectedAlsoIfSigchldIsIgnored) {
     verifies("SWR-PRT-061", Technique::kFaultInjection, Polarity::kViolation);
     EXPECT_EQ(run_in_process([] {
                   static_cast<void>(std::signal(SIGCHLD, SIG_IGN));
@@ -234,7 +234,7 @@ TEST(PartitionLifeTest, OneThatTheSystemWaitsForIsSeenToEnd) {
               0);
 }
 
-TEST(PartitionLifeTest, AStartThatFailsHalfWayLeavesNothing) {
+TEST(PartitionLifeTest, AFailedStartLeavesNothing) {
     verifies("SWR-PRT-061", Technique::kFaultInjection, Polarity::kViolation);
     struct Case {
         std::uint32_t call;
@@ -278,7 +278,7 @@ TEST(PartitionLifeTest, ASignalReachesTheProcessWhileItRuns) {
     EXPECT_EQ(sut.send_signal(SIGTERM), Status::kPreconditionNotMet);
 }
 
-TEST(PartitionLifeTest, ASignalThatIsNotAllowedIsTold) {
+TEST(PartitionLifeTest, ASignalWithoutPermissionIsReported) {
     verifies("SWR-PRT-061", Technique::kFaultInjection, Polarity::kViolation);
     EXPECT_EQ(run_in_process([] {
                   PartitionProcess sut;

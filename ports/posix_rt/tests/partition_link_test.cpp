@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: what is published on one side comes out on the other, once, with its age; what is no message of that
-// type does not. Method: cycles of both components by hand over one memory; frames made by hand.
+// Goal: a value that one side publishes is output once on the other side, with its age; invalid messages are
+// not output. Method: the test calls the cycles of both components over one memory and writes messages of its
+// own.
 #include "mamori/ports/posix_rt/partition_link.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,7 @@ class PartitionLinkTest : public ::testing::Test {
         sender_.in.mark_read();
         return result;
     }
-    /// A cycle of the receiver. @return whether a message came out.
+    /// Runs a cycle of the receiver. @return true if a message was output.
     bool receive(Instant now) {
         EXPECT_EQ(receiver_.on_execute({0, now}), Status::kOk);
         EXPECT_TRUE(receiver_.news.publish(now));
@@ -69,7 +70,7 @@ class PartitionLinkTest : public ::testing::Test {
     OutPort<Message> source_{kNoOwner, "source"};
 };
 
-TEST_F(PartitionLinkTest, AMessageOfAnEarlierRunDoesNotComeOut) {
+TEST_F(PartitionLinkTest, AMessageOfAnEarlierRunIsNotOutput) {
     verifies("SWR-PRT-013", Technique::kStateTransition);
     ASSERT_EQ(send({7U, 1.5, Colour::kGreen}, Instant{1000}), Status::kOk);
 
@@ -80,7 +81,7 @@ TEST_F(PartitionLinkTest, AMessageOfAnEarlierRunDoesNotComeOut) {
     EXPECT_TRUE(receive(Instant{6300}));
 }
 
-TEST_F(PartitionLinkTest, AMessageComesOutOnceWithTheAgeItHasInTheOtherPartition) {
+TEST_F(PartitionLinkTest, AMessageIsOutputOnceWithItsAgeSincePublication) {
     verifies("SWR-PRT-013");
     EXPECT_FALSE(receive(Instant{500}));
     EXPECT_EQ(get_news().outcome, FrameOutcome::kNothingNew);
@@ -95,7 +96,7 @@ TEST_F(PartitionLinkTest, AMessageComesOutOnceWithTheAgeItHasInTheOtherPartition
     EXPECT_EQ(get_news().age_ns, 300);
     EXPECT_EQ(get_news().number, 1U);
 
-    ASSERT_EQ(send_again(), Status::kOk) << "nothing new at the input: nothing leaves";
+    ASSERT_EQ(send_again(), Status::kOk) << "without a new input, nothing is sent";
     EXPECT_FALSE(receive(Instant{1400}));
     EXPECT_EQ(get_news().outcome, FrameOutcome::kNothingNew);
     EXPECT_EQ(get_news().age_ns, 0);
@@ -108,7 +109,7 @@ TEST_F(PartitionLinkTest, MessagesThatWereOverwrittenAreCounted) {
         ASSERT_EQ(send({i, 0.0, Colour::kRed}, Instant{i}), Status::kOk);
     }
     ASSERT_TRUE(receive(Instant{10}));
-    EXPECT_EQ(get_news().skipped, 0U) << "there was no good one before";
+    EXPECT_EQ(get_news().skipped, 0U) << "there was no valid message before";
     EXPECT_EQ(receiver_.out.get_published().sequence, 3U);
     for (std::uint32_t i = 4U; i <= 8U; ++i) {
         ASSERT_EQ(send({i, 0.0, Colour::kRed}, Instant{i}), Status::kOk);
@@ -122,7 +123,7 @@ TEST_F(PartitionLinkTest, MessagesThatWereOverwrittenAreCounted) {
     EXPECT_EQ(get_news().skipped, 0U);
 }
 
-TEST_F(PartitionLinkTest, AMessageOfTheFutureDoesNotComeOut) {
+TEST_F(PartitionLinkTest, AMessageOfTheFutureIsNotOutput) {
     verifies("SWR-PRT-014", Technique::kBoundaryValues, Polarity::kViolation);
     ASSERT_EQ(send({1U, 0.0, Colour::kRed}, Instant{1000}), Status::kOk);
     ASSERT_FALSE(receive(Instant{999}));
@@ -132,7 +133,7 @@ TEST_F(PartitionLinkTest, AMessageOfTheFutureDoesNotComeOut) {
     EXPECT_TRUE(receive(Instant{2000}));
 }
 
-TEST_F(PartitionLinkTest, AMessageOfTheFutureComesOutWithinTheTolerance) {
+TEST_F(PartitionLinkTest, AMessageOfTheFutureIsOutputWithinTheTolerance) {
     verifies("SWR-PRT-014", Technique::kBoundaryValues);
     PartitionReceiver<Message> tolerant{"tolerant", reader_, Duration{100}};
     ASSERT_EQ(send({1U, 0.0, Colour::kRed}, Instant{1000}), Status::kOk);
@@ -146,8 +147,8 @@ TEST_F(PartitionLinkTest, AMessageOfTheFutureComesOutWithinTheTolerance) {
     EXPECT_FALSE(tolerant.out.publish(Instant{900}));
 }
 
-/// A frame with this content and instant; the receiver must not give it out.
-TEST_F(PartitionLinkTest, WhatIsNoMessageDoesNotComeOut) {
+/// Writes a message with this content and instant, which the receiver must not output.
+TEST_F(PartitionLinkTest, AnInvalidMessageIsNotOutput) {
     verifies("SWR-PRT-014", Technique::kFaultInjection, Polarity::kViolation);
     std::array<std::byte, kCapacity> content{};
     ASSERT_EQ(send({1U, 0.0, Colour::kRed}, Instant{1}), Status::kOk);
@@ -170,7 +171,7 @@ TEST_F(PartitionLinkTest, WhatIsNoMessageDoesNotComeOut) {
         ASSERT_EQ(writer_.write({content.data(), row.length}, Instant{row.instant_ns}), Status::kOk);
         EXPECT_FALSE(receive(Instant{4}));
         EXPECT_EQ(get_news().outcome, FrameOutcome::kMalformed);
-        EXPECT_EQ(get_news().number, 1U) << "of the last good one";
+        EXPECT_EQ(get_news().number, 1U) << "number of the last valid message";
         EXPECT_EQ(get_news().refused, ++refused);
     }
     content[kCapacity - 4U] = std::byte{1U};
@@ -180,7 +181,7 @@ TEST_F(PartitionLinkTest, WhatIsNoMessageDoesNotComeOut) {
     EXPECT_EQ(get_news().refused, refused);
 }
 
-TEST_F(PartitionLinkTest, ATornFrameIsToldAndCounted) {
+TEST_F(PartitionLinkTest, ATornMessageIsReportedAndCounted) {
     verifies("SWR-PRT-014", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(send({1U, 0.0, Colour::kRed}, Instant{1}), Status::kOk);
     words_[0U] = 5U;
@@ -190,7 +191,7 @@ TEST_F(PartitionLinkTest, ATornFrameIsToldAndCounted) {
     EXPECT_EQ(get_news().refused, 1U);
 }
 
-TEST_F(PartitionLinkTest, AValueWithoutAnEncodingDoesNotLeave) {
+TEST_F(PartitionLinkTest, AValueWithoutAnEncodingIsNotSent) {
     verifies("SWR-PRT-014", Technique::kFaultInjection, Polarity::kViolation);
 
     EXPECT_EQ(send({1U, 0.0, static_cast<Colour>(2U)}, Instant{1}), Status::kBadParameter);
@@ -198,7 +199,7 @@ TEST_F(PartitionLinkTest, AValueWithoutAnEncodingDoesNotLeave) {
     EXPECT_EQ(get_news().outcome, FrameOutcome::kNothingNew);
 }
 
-TEST_F(PartitionLinkTest, EndsThatAreNotOpenForTheMessageAreRefusedAtTheStart) {
+TEST_F(PartitionLinkTest, EndsWithoutAnOpenMemoryOfTheRightCapacityAreRejectedAtTheStart) {
     verifies("SWR-PRT-013", Technique::kInterface, Polarity::kViolation);
     FrameWriter closed_writer;
     FrameReader closed_reader;

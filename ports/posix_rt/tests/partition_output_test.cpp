@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a partition writes to streams of its own, and each of its lines begins with its name. Method: the
-// shell as a partition, files and pipes as streams, text on both sides of each limit, a flood.
+// Goal: a partition writes to separate streams, and each of its lines begins with its name. Method: a shell
+// as partition, files and pipes as streams, text on both sides of each limit, a flood.
 #include "mamori/ports/posix_rt/partition_output.hpp"
 
 #include <fcntl.h>
@@ -37,7 +37,7 @@ class PartitionStreamTest : public ::testing::Test {
     PartitionProcess process_{};
 };
 
-TEST_F(PartitionStreamTest, WithoutStreamsTheOutputGoesNowhere) {
+TEST_F(PartitionStreamTest, WithoutStreamsTheOutputIsDiscarded) {
     verifies("SWR-PRT-063", Technique::kRequirementsBased, Polarity::kViolation);
     ASSERT_EQ(
         start("for i in 0 1 2; do x=$(readlink /proc/$$/fd/$i); echo $x >&3; done", kNoStream, kNoStream),
@@ -47,7 +47,7 @@ TEST_F(PartitionStreamTest, WithoutStreamsTheOutputGoesNowhere) {
     EXPECT_EQ(wait_for_end(process_), PartitionState::kEnded);
 }
 
-TEST_F(PartitionStreamTest, EachStreamGoesWhereTheOrderSays) {
+TEST_F(PartitionStreamTest, EachStreamHasTheTargetOfTheOrder) {
     verifies("SWR-PRT-063");
     Line output;
     Line errors;
@@ -60,7 +60,7 @@ TEST_F(PartitionStreamTest, EachStreamGoesWhereTheOrderSays) {
     EXPECT_EQ(wait_for_end(process_), PartitionState::kEnded);
 }
 
-TEST_F(PartitionStreamTest, BothStreamsMayBeOne) {
+TEST_F(PartitionStreamTest, BothStreamsMayBeEqual) {
     verifies("SWR-PRT-063", Technique::kEquivalenceClasses);
     Line output;
     ASSERT_EQ(start("echo a; echo b >&2", output.get_writing_end(), output.get_writing_end()), Status::kOk);
@@ -69,7 +69,7 @@ TEST_F(PartitionStreamTest, BothStreamsMayBeOne) {
     EXPECT_EQ(wait_for_end(process_), PartitionState::kEnded);
 }
 
-TEST_F(PartitionStreamTest, StreamsMayHaveTheNumbersOfEachOther) {
+TEST_F(PartitionStreamTest, StreamsMayExchangeTheirNumbers) {
     verifies("SWR-PRT-063", Technique::kErrorGuessing);
     Line first;
     Line second;
@@ -86,7 +86,7 @@ TEST_F(PartitionStreamTest, StreamsMayHaveTheNumbersOfEachOther) {
     EXPECT_EQ(line_.read_all(), "c\n");
 }
 
-TEST_F(PartitionStreamTest, StreamsThatTheSafetyProcessDoesNotHaveAreThere) {
+TEST_F(PartitionStreamTest, StreamsThatTheSafetyProcessHasClosedExist) {
     verifies("SWR-PRT-063", Technique::kErrorGuessing, Polarity::kViolation);
     EXPECT_EQ(run_in_process([this] {
                   for (const int file : {0, 1, 2}) {
@@ -102,7 +102,7 @@ TEST_F(PartitionStreamTest, StreamsThatTheSafetyProcessDoesNotHaveAreThere) {
     EXPECT_EQ(line_.read_all(), "/dev/null\n/dev/null\n/dev/null\n");
 }
 
-TEST_F(PartitionStreamTest, AStreamThatIsNoneStartsNothing) {
+TEST_F(PartitionStreamTest, AnInvalidStreamStartsNothing) {
     verifies("SWR-PRT-063", Technique::kBoundaryValues, Polarity::kViolation);
     EXPECT_EQ(start("true", -2, kNoStream), Status::kBadParameter);
     EXPECT_EQ(start("true", kNoStream, -2), Status::kBadParameter);
@@ -114,7 +114,7 @@ TEST_F(PartitionStreamTest, AStreamThatIsNoneStartsNothing) {
     EXPECT_EQ(process_.check(), PartitionState::kNone);
 }
 
-/// The partition is the test itself, which writes into the pipes.
+/// The test acts as the partition and writes to the pipes.
 class PartitionOutputTest : public ::testing::Test {
   protected:
     void SetUp() override { ASSERT_EQ(sut_.open(), Status::kOk); }
@@ -131,7 +131,7 @@ class PartitionOutputTest : public ::testing::Test {
     PartitionOutput sut_{"plan"};
 };
 
-TEST_F(PartitionOutputTest, EachLineHasTheNameBeforeIt) {
+TEST_F(PartitionOutputTest, EachLineStartsWithTheName) {
     verifies("SWR-PRT-062");
     say(sut_.get_output(), "one\n\ntwo\n");
     say(sut_.get_errors(), "bad\n");
@@ -156,7 +156,7 @@ TEST_F(PartitionOutputTest, ALineIsWrittenWhenItIsCompleteOrAtTheEnd) {
     EXPECT_EQ(errors_.read_all(), "[plan] half\n");
 }
 
-TEST_F(PartitionOutputTest, ALongLineIsDivided) {
+TEST_F(PartitionOutputTest, ALongLineIsSplit) {
     verifies("SWR-PRT-062", Technique::kBoundaryValues);
     const std::string whole(PartitionOutput::kLineMax, 'x');
     say(sut_.get_output(), whole + "\n" + whole + "y\n");
@@ -183,7 +183,7 @@ TEST_F(PartitionOutputTest, ControlCharactersOfTwoOctetsAreReplacedToo) {
     EXPECT_EQ(output_.read_all(), "[plan] ?? ??2J ?? \xc2\xa0 \xc3\x9f\n");
 }
 
-TEST_F(PartitionOutputTest, ALongNameIsCut) {
+TEST_F(PartitionOutputTest, ALongNameIsTruncated) {
     verifies("SWR-PRT-062", Technique::kBoundaryValues);
     const std::string longest(PartitionOutput::kNameMax, 'n');
     for (const std::string& name : {longest, longest + "m"}) {
@@ -196,7 +196,7 @@ TEST_F(PartitionOutputTest, ALongNameIsCut) {
     EXPECT_EQ(output_.read_all(), line + line);
 }
 
-TEST_F(PartitionOutputTest, AFloodHoldsUpNothingButThePartition) {
+TEST_F(PartitionOutputTest, AFloodBlocksOnlyThePartition) {
     verifies("SWR-PRT-062", Technique::kFaultInjection, Polarity::kViolation);
     const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
     const std::array<const char*, 2U> arguments{"-c", "while :; do echo flood; echo flood >&2; done"};
@@ -231,7 +231,7 @@ TEST_F(PartitionOutputTest, MoreThanTheBoundWaitsForTheNextCall) {
     static_cast<void>(::close(nothing));
 }
 
-TEST_F(PartitionOutputTest, ALineThatItsTargetDoesNotTakeIsCounted) {
+TEST_F(PartitionOutputTest, ALineThatItsTargetRejectsIsCounted) {
     verifies("SWR-PRT-062", Technique::kFaultInjection, Polarity::kViolation);
     const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);
     say(sut_.get_output(), "a\nb\n");
@@ -259,7 +259,7 @@ TEST_F(PartitionOutputTest, ItIsOpenedOnceAndUsesNoDescriptorAfterItsEnd) {
         EXPECT_EQ(count(), before + 4);
         EXPECT_NE(::fcntl(other.get_output(), F_GETFD) & FD_CLOEXEC, 0);
         EXPECT_EQ(::fcntl(other.get_output(), F_GETFL) & O_NONBLOCK, 0)
-            << "the partition waits, and loses nothing";
+            << "the partition waits and loses nothing";
     }
     EXPECT_EQ(count(), before);
     rlimit limit{};
@@ -292,7 +292,7 @@ TEST_F(PartitionOutputTest, ItsPipesMayHaveTheFirstNumbers) {
     EXPECT_EQ(output_.read_all(), "[first] line\n");
 }
 
-TEST_F(PartitionOutputTest, APartitionThatStartsAgainKeepsItsStreams) {
+TEST_F(PartitionOutputTest, ARestartedPartitionKeepsItsStreams) {
     verifies("SWR-PRT-062", Technique::kInterface);
     PartitionProcess process;
     for (const char* script : {"echo first", "echo second >&2"}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a partition gets what it needs and no more, is gone when it must be, and nobody waits for it. Method:
-// the shell as its program, which tells through a pipe what it finds; the pipe ends when nobody has it any
-// more, so a process that is left over is seen.
+// Goal: a partition gets the necessary privileges only, ends when required, and no function waits for it.
+// Method: a shell as its program reports its environment through a pipe. The pipe ends when no process holds
+// it, so a remaining process is detected.
 #include "mamori/ports/posix_rt/partition_process.hpp"
 
 #include <fcntl.h>
@@ -36,7 +36,7 @@ constexpr bool kIsEachStartACopy = false;
 
 class PartitionProcessTest : public ::testing::Test {
   protected:
-    /// A script whose descriptor 3 is the line.
+    /// Starts a script with the line as descriptor 3.
     Status start(const char* script) {
         const std::array<const char*, 2U> arguments{"-c", script};
         const std::array<int, 1U> descriptors{line_.get_writing_end()};
@@ -46,7 +46,7 @@ class PartitionProcessTest : public ::testing::Test {
         return sut_.start(order_);
     }
     PartitionState wait_for_end() { return posix_rt::wait_for_end(sut_); }
-    /// What the script writes to descriptor 3.
+    /// Returns the output of the script to descriptor 3.
     std::string run(const char* script) {
         EXPECT_EQ(start(script), Status::kOk) << describe(sut_.get_error());
         std::string text = line_.read_all();
@@ -73,7 +73,7 @@ std::string find(const std::string& text, const std::string& key) {
     return "no " + key;
 }
 
-TEST_F(PartitionProcessTest, ItRunsWithItsArgumentsAndIsSeenToEnd) {
+TEST_F(PartitionProcessTest, ItRunsWithItsArgumentsAndItsEndIsDetected) {
     verifies("SWR-PRT-015");
     EXPECT_EQ(sut_.check(), PartitionState::kNone);
     const std::array<const char*, 5U> arguments{"-c", "read x; echo \"$0,$1,$2,$x\" >&3; exit 7", "a", "b c",
@@ -84,14 +84,14 @@ TEST_F(PartitionProcessTest, ItRunsWithItsArgumentsAndIsSeenToEnd) {
     order_.descriptors = descriptors;
 
     ASSERT_EQ(sut_.start(order_), Status::kOk);
-    EXPECT_EQ(line_.read_all(), "a,b c,,\n") << "nothing can be read from its standard input";
+    EXPECT_EQ(line_.read_all(), "a,b c,,\n") << "its standard input is empty";
     EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
     EXPECT_EQ(sut_.get_exit_status(), 7);
     EXPECT_EQ(sut_.get_signal(), 0);
     EXPECT_EQ(sut_.get_pid(), -1);
 }
 
-TEST_F(PartitionProcessTest, DescriptorsTakeTheirPlacesInAnyOrderAndNoOtherOneIsThere) {
+TEST_F(PartitionProcessTest, DescriptorsGetTheirNumbersInAnyOrderAndNoOtherOneIsOpen) {
     verifies("SWR-PRT-015", Technique::kErrorGuessing, Polarity::kViolation);
     Line second;
     const int leak = ::dup(line_.get_writing_end());  // without close-on-exec
@@ -125,7 +125,7 @@ TEST_F(PartitionProcessTest, ItCountsFromTheEpochOfTheSafetyProcess) {
     EXPECT_EQ(same.get_epoch_ns(), clock.get_epoch_ns());
 }
 
-TEST_F(PartitionProcessTest, AnEpochOfItsOwnIsNotHandedOnAndAWrongOneIsNone) {
+TEST_F(PartitionProcessTest, AnInheritedEpochIsNotForwardedAndAnInvalidOneIsIgnored) {
     verifies("SWR-PRT-015", Technique::kBoundaryValues, Polarity::kViolation);
     FrameClock clock = FrameClock::at_epoch(5);
     for (const char* text : {"", "1x", "x", "99999999999999999999"}) {
@@ -142,7 +142,7 @@ TEST_F(PartitionProcessTest, AnEpochOfItsOwnIsNotHandedOnAndAWrongOneIsNone) {
 
 TEST_F(PartitionProcessTest, AnotherEntryOfTheEnvironmentIsNoEpoch) {
     verifies("SWR-PRT-015", Technique::kErrorGuessing, Polarity::kViolation);
-    constexpr const char* kSameLength = "MAMORI_OTHER_NS";  // as the name of the epoch
+    constexpr const char* kSameLength = "MAMORI_OTHER_NS";  // same length as the name of the epoch
     ASSERT_EQ(::setenv(kSameLength, "77", 1), 0);
     FrameClock clock = FrameClock::at_epoch(5);
     EXPECT_EQ(find_partition_clock(clock), Status::kPreconditionNotMet);
@@ -153,7 +153,7 @@ TEST_F(PartitionProcessTest, AnotherEntryOfTheEnvironmentIsNoEpoch) {
 TEST_F(PartitionProcessTest, ItsStartCopiesNoMemory) {
     verifies("SWR-PRT-015", Technique::kErrorGuessing, Polarity::kViolation);
     if (kIsEachStartACopy) {
-        GTEST_SKIP() << "verdict=not-shown: this sanitizer makes a copying start of every one";
+        GTEST_SKIP() << "verdict=not-shown: this sanitizer copies the memory at each start";
     }
     constexpr std::size_t kPage = 4096U;
     constexpr std::size_t kPages = 1024U;
@@ -215,7 +215,7 @@ TEST_F(PartitionProcessTest, AnOrderAtItsLimitsIsStarted) {
     EXPECT_EQ(sut_.get_exit_status(), 0);
 }
 
-TEST_F(PartitionProcessTest, WhatCannotBeStartedIsToldWithItsCause) {
+TEST_F(PartitionProcessTest, AFailedStartReportsItsCause) {
     verifies("SWR-PRT-015", Technique::kFaultInjection, Polarity::kViolation);
     const std::array<int, 1U> no_descriptor{-1};
     const auto refuse = [this](const PartitionOrder& order, PartitionError error, int system_error) {
@@ -223,7 +223,7 @@ TEST_F(PartitionProcessTest, WhatCannotBeStartedIsToldWithItsCause) {
         EXPECT_EQ(sut_.get_error(), error) << describe(sut_.get_error());
         EXPECT_EQ(sut_.get_system_error(), system_error);
         EXPECT_EQ(sut_.check(), PartitionState::kNone);
-        EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a process is left";
+        EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a process remains";
     };
 
     refuse({"/no/such/program", {}, {}, nullptr, {}}, PartitionError::kCannotExecute, ENOENT);
@@ -240,7 +240,7 @@ TEST_F(PartitionProcessTest, WhatCannotBeStartedIsToldWithItsCause) {
     EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
 }
 
-TEST_F(PartitionProcessTest, AMachineWithoutRoomIsTold) {
+TEST_F(PartitionProcessTest, AnExhaustedSystemIsReported) {
     verifies("SWR-PRT-015", Technique::kFaultInjection, Polarity::kViolation);
     const PartitionOrder order{"/bin/true", {}, {}, nullptr, {}};
     rlimit before{};
@@ -265,7 +265,7 @@ TEST_F(PartitionProcessTest, AMachineWithoutRoomIsTold) {
     EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
 }
 
-TEST_F(PartitionProcessTest, EachCauseHasItsOwnSentence) {
+TEST_F(PartitionProcessTest, EachCauseHasItsOwnMessage) {
     verifies("SWR-PRT-015", Technique::kEquivalenceClasses);
     const auto last = static_cast<int>(PartitionError::kCannotWatch);
 
@@ -279,9 +279,9 @@ TEST_F(PartitionProcessTest, EachCauseHasItsOwnSentence) {
     EXPECT_STREQ(describe(static_cast<PartitionError>(last + 1)), "failed for an unknown reason");
 }
 
-TEST_F(PartitionProcessTest, ItHasNoRightThatCouldMoveAWindow) {
+TEST_F(PartitionProcessTest, ItHasNoPrivilegeThatCouldDelayAWindow) {
     verifies("SWR-PRT-016", Technique::kRequirementsBased, Polarity::kViolation);
-    // The most that this thread can have, of which nothing may be left.
+    // The maximum privileges and settings of this thread. The partition must have none of them.
     static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
     sigset_t blocked;
     sigset_t before;
@@ -379,10 +379,10 @@ TEST_F(PartitionProcessTest, ItRunsAsAnotherUserWhereThatIsAllowed) {
     EXPECT_EQ(find(facts, "Uid:"), "65534\t65534\t65534\t65534");
     EXPECT_EQ(find(facts, "Gid:"), "65534\t65534\t65534\t65534");
     EXPECT_EQ(find(facts, "Groups:"), "");
-    EXPECT_EQ(::geteuid(), 0U) << "the safety process is who it was";
+    EXPECT_EQ(::geteuid(), 0U) << "the user of the safety process is unchanged";
 }
 
-TEST_F(PartitionProcessTest, OneThatStandsStillIsRunningAndCanBeEnded) {
+TEST_F(PartitionProcessTest, AHangingPartitionIsRunningAndCanBeEnded) {
     verifies("SWR-PRT-017", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(start("echo -n s >&3; while :; do :; done"), Status::kOk);
     EXPECT_EQ(line_.read_one(), 's');
@@ -398,7 +398,7 @@ TEST_F(PartitionProcessTest, OneThatStandsStillIsRunningAndCanBeEnded) {
     EXPECT_EQ(sut_.end(), Status::kPreconditionNotMet);
 }
 
-TEST_F(PartitionProcessTest, OneThatHasEndedCanBeStartedAgain) {
+TEST_F(PartitionProcessTest, APartitionThatHasEndedCanBeStartedAgain) {
     verifies("SWR-PRT-017");
     for (int round = 0; round < 3; ++round) {
         ASSERT_EQ(start("exit 3"), Status::kOk);
@@ -407,7 +407,7 @@ TEST_F(PartitionProcessTest, OneThatHasEndedCanBeStartedAgain) {
     }
 }
 
-TEST_F(PartitionProcessTest, WhatItHasStartedEndsWithIt) {
+TEST_F(PartitionProcessTest, ItsChildrenEndWithIt) {
     verifies("SWR-PRT-017", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(start("sleep 1000 & sleep 1000 & exit 0"), Status::kOk);
     EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
@@ -425,13 +425,13 @@ TEST_F(PartitionProcessTest, ItEndsWithItsOwner) {
     }
 
     EXPECT_EQ(line_.read_all(), "");
-    // Whether the owner's last look still met it is a matter of time; that it is gone is not.
+    // The owner may or may not have waited for the child already. In both cases, the child must have ended.
     while (::waitpid(-1, nullptr, 0) > 0) {
     }
-    EXPECT_EQ(errno, ECHILD) << "a child is left";
+    EXPECT_EQ(errno, ECHILD) << "a child remains";
 }
 
-TEST_F(PartitionProcessTest, ItDiesWithTheSafetyProcess) {
+TEST_F(PartitionProcessTest, ItEndsWithTheSafetyProcess) {
     verifies("SWR-PRT-017", Technique::kFaultInjection, Polarity::kViolation);
     const pid_t middle = ::fork();
     if (middle == 0) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: each provision tells what is in effect from what is not, and from what nobody can say, as the running
-// system has it. Method: memory is really locked, unlocked, and mapped beside it; modes of the floating-point
-// unit are really switched; threads really get their priorities; the drivers are made for the test, since a
-// real watchdog would reset the machine.
+// Goal: each platform property reports whether it is in effect, not in effect or not known on the running
+// system. Method: the tests lock, unlock and map memory, change modes of the floating-point unit and set
+// priorities of threads. The watchdog drivers are simulated, since a real watchdog would reset the computer.
 #include "mamori/ports/posix_rt/provisions.hpp"
 
 #include <fcntl.h>
@@ -38,7 +37,7 @@ using namespace verification;
 class MemoryLockedTest : public ::testing::Test {
   protected:
     void TearDown() override { munlockall(); }
-    /// @return false when this machine, or a sanitizer, locks nothing.
+    /// @return false if the host denies locked memory, or if a sanitizer disables it.
     static bool lock() {
         const std::uint64_t before = read_locked_kib();
         return lock_memory(4096U).is_granted && read_locked_kib() > before;
@@ -84,10 +83,10 @@ TEST_F(MemoryLockedTest, LockedMemoryIsInEffect) {
     EXPECT_TRUE(sut_.is_in_effect());
 }
 
-TEST_F(MemoryLockedTest, MemoryThatIsNotLockedOrNotAllOfItIsNot) {
+TEST_F(MemoryLockedTest, MemoryThatIsNotCompletelyLockedIsNotInEffect) {
     verifies("SWR-AOU-011", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(sut_.open(), Status::kOk);
-    EXPECT_EQ(sut_.look(), Status::kPreconditionNotMet) << "nothing is locked yet";
+    EXPECT_EQ(sut_.look(), Status::kPreconditionNotMet) << "no memory is locked yet";
     if (!lock()) {
         GTEST_SKIP() << "verdict=no-privilege: memory cannot be locked here";
     }
@@ -96,19 +95,19 @@ TEST_F(MemoryLockedTest, MemoryThatIsNotLockedOrNotAllOfItIsNot) {
     constexpr std::size_t kSize = 4U << 20U;
     void* const other = mmap(nullptr, kSize, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     ASSERT_NE(other, MAP_FAILED);
-    EXPECT_EQ(sut_.look(), Status::kOk) << "locked as it is mapped";
+    EXPECT_EQ(sut_.look(), Status::kOk) << "mappings are locked immediately";
 
     ASSERT_EQ(munlock(other, kSize), 0);
     EXPECT_EQ(sut_.look(), Status::kPreconditionNotMet);
     MemoryLocked tolerant{MemoryLocked::kKernelBytes + kSize};
     ASSERT_EQ(tolerant.open(), Status::kOk);
-    EXPECT_EQ(tolerant.look(), Status::kOk) << "the application knows of it";
+    EXPECT_EQ(tolerant.look(), Status::kOk) << "the application has stated this mapping";
     EXPECT_EQ(check.check(), SelfTestStatus::kFailed);
     ASSERT_EQ(munmap(other, kSize), 0);
     EXPECT_EQ(sut_.look(), Status::kOk);
 }
 
-TEST_F(MemoryLockedTest, WithoutTheFileNobodyCanSay) {
+TEST_F(MemoryLockedTest, WithoutTheFileItIsNotKnown) {
     verifies("SWR-AOU-011", Technique::kErrorGuessing, Polarity::kViolation);
 
     EXPECT_EQ(sut_.look(), Status::kUnsupported);
@@ -117,7 +116,7 @@ TEST_F(MemoryLockedTest, WithoutTheFileNobodyCanSay) {
 
 // ---- Timers ----
 
-TEST(PreciseTimersTest, AnswerIsThatOfTheClock) {
+TEST(PreciseTimersTest, ResultIsThatOfTheClock) {
     verifies("SWR-AOU-012", Technique::kBackToBack);
     timespec resolution{};
     ASSERT_EQ(clock_getres(CLOCK_MONOTONIC, &resolution), 0);
@@ -127,7 +126,7 @@ TEST(PreciseTimersTest, AnswerIsThatOfTheClock) {
     EXPECT_EQ(sut.look(), is_precise ? Status::kOk : Status::kPreconditionNotMet);
 }
 
-TEST(PreciseTimersTest, ClockThatGoesOnByTicksOrDoesNotSayIsNotInEffect) {
+TEST(PreciseTimersTest, ClockWithTicksOrUnknownResolutionIsNotInEffect) {
     verifies("SWR-AOU-012", Technique::kFaultInjection, Polarity::kViolation);
     PreciseTimers coarse{CLOCK_MONOTONIC_COARSE};
     PreciseTimers none{12345};
@@ -138,7 +137,7 @@ TEST(PreciseTimersTest, ClockThatGoesOnByTicksOrDoesNotSayIsNotInEffect) {
 
 // ---- Floating-point unit ----
 
-TEST(FloatingPointModeTest, ModeThatAProgramBeginsWithIsInEffect) {
+TEST(FloatingPointModeTest, InitialModeOfAProgramIsInEffect) {
     verifies("SWR-AOU-013");
     FloatingPointMode sut;
 
@@ -172,11 +171,11 @@ TEST(FloatingPointModeTest, FlushedDenormalsAreNotInEffect) {
     EXPECT_EQ(zero, Status::kPreconditionNotMet);
     EXPECT_EQ(sut.look(), Status::kOk);
 #else
-    GTEST_SKIP() << "verdict=not-shown: this processor is switched in another way";
+    GTEST_SKIP() << "verdict=not-shown: the mode of this processor is set in a different way";
 #endif
 }
 
-TEST(FloatingPointModeTest, ModeIsThatOfTheThreadThatAsks) {
+TEST(FloatingPointModeTest, ModeIsThatOfTheCallingThread) {
     verifies("SWR-AOU-013", Technique::kInterface);
     FloatingPointMode sut;
     Status other = Status::kOk;
@@ -191,7 +190,7 @@ TEST(FloatingPointModeTest, ModeIsThatOfTheThreadThatAsks) {
 
 // ---- Guard of budgets ----
 
-/// Asks on a thread of its own, which has the place of a window. @return kError without the right for it.
+/// Calls look() on a separate thread with the scheduling of a window. @return kError without the privilege.
 Status look_with(GuardAbove& sut, int priority) {
     Status status = Status::kError;
     std::thread([&] {
@@ -202,10 +201,10 @@ Status look_with(GuardAbove& sut, int priority) {
     return status;
 }
 
-TEST(GuardAboveTest, GuardAboveTheWindowsIsInEffectAndOneBesideOrBelowIsNot) {
+TEST(GuardAboveTest, GuardAboveTheWindowsIsInEffectAndOneAtOrBelowIsNot) {
     verifies("SWR-AOU-014", Technique::kBoundaryValues, Polarity::kViolation);
     GuardAbove sut;
-    EXPECT_EQ(sut.look(), Status::kPreconditionNotMet) << "nobody guards";
+    EXPECT_EQ(sut.look(), Status::kPreconditionNotMet) << "there is no guard";
     sut.set_guard();
     EXPECT_EQ(look_with(sut, 0), Status::kPreconditionNotMet) << "both are ordinary threads";
     if (!set_priority(pthread_self(), 20).is_granted) {
@@ -213,7 +212,7 @@ TEST(GuardAboveTest, GuardAboveTheWindowsIsInEffectAndOneBesideOrBelowIsNot) {
     }
 
     const Status below = look_with(sut, 19);
-    const Status ordinary = look_with(sut, 0);  // it inherits the priority of its maker
+    const Status ordinary = look_with(sut, 0);  // it inherits the priority of this thread
     const Status above = look_with(sut, 21);
     ASSERT_TRUE(set_priority(pthread_self(), 0).is_granted);
     EXPECT_EQ(below, Status::kOk);
@@ -268,7 +267,7 @@ TEST(SoftwareWatchdogArmedTest, ItIsArmedFromTheFirstServiceUntilItIsClosed) {
     SoftwareWatchdogArmed sut{watchdog};
     EXPECT_EQ(sut.look(), Status::kPreconditionNotMet);
     ASSERT_EQ(watchdog.open({}), Status::kOk);
-    EXPECT_EQ(sut.look(), Status::kPreconditionNotMet) << "it watches nobody yet";
+    EXPECT_EQ(sut.look(), Status::kPreconditionNotMet) << "it is not active yet";
 
     ASSERT_EQ(watchdog.service(clock.get_now()), Status::kOk);
     EXPECT_EQ(sut.look(), Status::kOk);
@@ -313,7 +312,7 @@ TEST_F(DeviceWatchdogArmedTest, DeviceThatCountsDownIsArmed) {
     }
 }
 
-TEST_F(DeviceWatchdogArmedTest, DeviceThatStandsOrFailsIsNot) {
+TEST_F(DeviceWatchdogArmedTest, DeviceThatIsStoppedOrFailsIsNotArmed) {
     verifies("SWR-AOU-016", Technique::kFaultInjection, Polarity::kViolation);
     for (const int left_s : {0, -1}) {
         driver_.left_s = left_s;
@@ -325,7 +324,7 @@ TEST_F(DeviceWatchdogArmedTest, DeviceThatStandsOrFailsIsNot) {
     EXPECT_EQ(sut_.look(), Status::kPreconditionNotMet);
 }
 
-TEST_F(DeviceWatchdogArmedTest, DriverThatDoesNotTellLeavesItOpen) {
+TEST_F(DeviceWatchdogArmedTest, DriverThatDoesNotReportTheTimeIsNotKnown) {
     verifies("SWR-AOU-016", Technique::kEquivalenceClasses, Polarity::kViolation);
     for (const int error : {EOPNOTSUPP, ENOTTY}) {
         driver_.left_error = error;

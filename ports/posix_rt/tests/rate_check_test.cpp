@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a clock that deviates by more than the limit is found, in its direction and in time, and one within
-// it never is, however uncertain the readings are. Method: readings made by hand, on both sides of the limit.
+// Goal: a deviation above the limit is found in time and with its direction; a clock within the limit is
+// never reported, for any uncertainty of the readings. Method: constructed readings on both sides of the
+// limit.
 #include "mamori/ports/posix_rt/rate_check.hpp"
 
 #include <gtest/gtest.h>
@@ -21,12 +22,12 @@ using literals::operator""_us;
 /// 0.5 % over 10 ms: 50 us.
 constexpr RateLimits kLimits{10_ms, 5000};
 
-/// `us` of the reference after the first reading, the watched clock has gained `gained_ns`.
+/// Reading `us` after the first one (on the reference), with a gain of the watched clock of `gained_ns`.
 ClockPair at(std::int64_t us, std::int64_t gained_ns, Duration uncertainty = {}) {
     return {Instant{us * 1000 + gained_ns}, 77'000'000 + us * 1000, uncertainty};
 }
 
-TEST(RateCheckTest, ClocksThatRunAlikeStaySoundAndTheSpansAreCounted) {
+TEST(RateCheckTest, ClocksWithEqualRatesHaveNoFindingAndTheSpansAreCounted) {
     verifies("SWR-PRT-032");
     RateCheck sut{kLimits};
 
@@ -36,7 +37,7 @@ TEST(RateCheckTest, ClocksThatRunAlikeStaySoundAndTheSpansAreCounted) {
     EXPECT_EQ(sut.get_sound_spans(), 10U);
 }
 
-TEST(RateCheckTest, AGainOrALossIsFoundJustBeyondWhatASpanAtTheLimitAllows) {
+TEST(RateCheckTest, AGainOrLossIsFoundJustBeyondThatOfASpanAtTheLimit) {
     verifies("SWR-PRT-032", Technique::kBoundaryValues, Polarity::kViolation);
     for (const std::int64_t sign : {1, -1}) {
         RateCheck sut{kLimits};
@@ -48,7 +49,7 @@ TEST(RateCheckTest, AGainOrALossIsFoundJustBeyondWhatASpanAtTheLimitAllows) {
     }
 }
 
-TEST(RateCheckTest, ARateAtTheLimitIsNeverFoundAndOneBeyondItWithinTwoSpansOfItsBegin) {
+TEST(RateCheckTest, ARateAtTheLimitIsNeverFoundAndOneBeyondItWithinTwoSpans) {
     verifies("SWR-PRT-032", Technique::kBoundaryValues, Polarity::kViolation);
     for (const std::int64_t phase_us : {0, 2500, 5000, 9750}) {
         for (const std::int64_t ppm : {5000, -5000, 5100, -5100, 100'000, -1'000'000}) {
@@ -66,7 +67,7 @@ TEST(RateCheckTest, ARateAtTheLimitIsNeverFoundAndOneBeyondItWithinTwoSpansOfIts
     }
 }
 
-TEST(RateCheckTest, AClockThatStandsStillOrStepsIsFoundAsSoonAsTheStepIsBeyondTheLimit) {
+TEST(RateCheckTest, AStoppedOrSteppedClockIsFoundAsSoonAsTheStepExceedsTheLimit) {
     verifies("SWR-PRT-032", Technique::kFaultInjection, Polarity::kViolation);
     RateCheck stopped{kLimits};
     ASSERT_EQ(stopped.look(at(0, 0)), Rate::kSound);
@@ -78,7 +79,7 @@ TEST(RateCheckTest, AClockThatStandsStillOrStepsIsFoundAsSoonAsTheStepIsBeyondTh
     EXPECT_EQ(stepped.look(at(250, 3'600'000'000'000)), Rate::kFast);
 }
 
-TEST(RateCheckTest, WhatTheReadingsLeaveUncertainCountsForTheClock) {
+TEST(RateCheckTest, TheUncertaintyCountsInFavourOfTheClock) {
     verifies("SWR-PRT-032", Technique::kBoundaryValues);
     RateCheck sut{kLimits};
 
@@ -98,7 +99,7 @@ TEST(RateCheckTest, TheLimitOfASpanCountsEachNanosecond) {
     }
 }
 
-TEST(RateCheckTest, WhoLooksTooLateComparesByTheTimeThatPassed) {
+TEST(RateCheckTest, ALateCallComparesOverTheElapsedTime) {
     verifies("SWR-PRT-032", Technique::kErrorGuessing);
     RateCheck sut{kLimits};
 

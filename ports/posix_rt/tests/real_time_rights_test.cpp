@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: each right is granted as asked for or refused with its cause, and a refusal leaves the thread as it
-// was. Method: the policy and the processors of the thread are read back; values that Linux does not have; a
-// process that drops its privileges. What the host does not grant is skipped.
+// Goal: each privilege is granted as requested or denied with its cause, and a denial does not change the
+// thread. Method: the tests read back policy and processors of the thread, use values that Linux does not
+// support, and drop the privileges of a process. They skip privileges that the host does not grant.
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ int count_processors() {
     return CPU_COUNT(&set);
 }
 
-TEST(RealTimeRightsTest, APriorityIsGrantedAndGivenBack) {
+TEST(RealTimeRightsTest, APriorityIsGrantedAndReleased) {
     verifies("SWR-PRT-002");
     const Right right = set_priority(pthread_self(), 10);
     if (!right.is_granted) {
@@ -51,7 +51,7 @@ TEST(RealTimeRightsTest, APriorityIsGrantedAndGivenBack) {
     EXPECT_EQ(get_own_priority(), 0);
 }
 
-/// Ends the privileges of this process, as far as it has any.
+/// Drops all privileges of this process.
 bool drop_privileges() {
     const rlimit none{0U, 0U};
     return setrlimit(RLIMIT_RTPRIO, &none) == 0 && setrlimit(RLIMIT_NICE, &none) == 0 &&
@@ -70,7 +70,7 @@ int run_in_child(int (*act)()) {
     return WEXITSTATUS(status);
 }
 
-TEST(RealTimeRightsTest, APriorityIsRefusedForWantOfTheRightAndTheThreadStaysAsItWas) {
+TEST(RealTimeRightsTest, APriorityWithoutPrivilegeIsDeniedAndTheThreadIsUnchanged) {
     verifies("SWR-PRT-002", Technique::kFaultInjection, Polarity::kViolation);
     EXPECT_EQ(run_in_child([] {
                   if (!drop_privileges()) {
@@ -82,7 +82,7 @@ TEST(RealTimeRightsTest, APriorityIsRefusedForWantOfTheRightAndTheThreadStaysAsI
               0);
 }
 
-TEST(RealTimeRightsTest, APriorityThatLinuxDoesNotHaveIsRefused) {
+TEST(RealTimeRightsTest, AnInvalidPriorityIsDenied) {
     verifies("SWR-PRT-002", Technique::kBoundaryValues, Polarity::kViolation);
 
     for (const int priority : {-1, 100}) {
@@ -93,7 +93,7 @@ TEST(RealTimeRightsTest, APriorityThatLinuxDoesNotHaveIsRefused) {
     EXPECT_EQ(read_priority(), 0);
 }
 
-TEST(RealTimeRightsTest, AProcessorThatIsNotThereIsRefusedAndNothingChanges) {
+TEST(RealTimeRightsTest, AMissingProcessorIsDeniedAndNothingChanges) {
     verifies("SWR-PRT-002", Technique::kBoundaryValues, Polarity::kViolation);
     const int before = count_processors();
 
@@ -106,7 +106,7 @@ TEST(RealTimeRightsTest, AProcessorThatIsNotThereIsRefusedAndNothingChanges) {
     EXPECT_EQ(count_processors(), before);
 }
 
-TEST(RealTimeRightsTest, AProcessorOfOursIsTaken) {
+TEST(RealTimeRightsTest, APermittedProcessorIsGranted) {
     verifies("SWR-PRT-002");
     cpu_set_t before;
     ASSERT_EQ(pthread_getaffinity_np(pthread_self(), sizeof before, &before), 0);
@@ -133,7 +133,7 @@ TEST(RealTimeRightsTest, MemoryIsLocked) {
     ASSERT_EQ(munlockall(), 0);
 }
 
-/// 0: a thread could be started after the memory was asked for; run in a process without rights.
+/// Exit status for a process without privileges; 0: a thread could be started after lock_memory().
 int start_thread_under_limit() {
     rlimit limit{};
     if (getrlimit(RLIMIT_MEMLOCK, &limit) != 0) {
@@ -149,11 +149,11 @@ int start_thread_under_limit() {
     const bool has_started = pthread_create(
                                  &thread, nullptr, [](void*) -> void* { return nullptr; }, nullptr) == 0 &&
                              pthread_join(thread, nullptr) == 0;
-    // The sanitizers let mlockall() do nothing, and then it is granted.
+    // With sanitizers, mlockall() has no effect and succeeds.
     return has_started && (right.is_granted || right.system_error == ENOMEM) ? 0 : 1;
 }
 
-TEST(RealTimeRightsTest, MemoryIsNotLockedUnderALimitThatWouldKeepThreadsFromStarting) {
+TEST(RealTimeRightsTest, MemoryIsNotLockedUnderALimitThatWouldPreventNewThreads) {
     verifies("SWR-PRT-002", Technique::kFaultInjection, Polarity::kViolation);
     EXPECT_EQ(run_in_child(&start_thread_under_limit), 0);
 }

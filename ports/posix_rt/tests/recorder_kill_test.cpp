@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a kill takes no record that was written, and spoils at most the one being written. Method: processes
-// that write into a mapped file and are killed at random instants (the seed is printed on failure). What a
-// kill leaves after each single instruction: kernel/tests/flight_step_test.cpp.
+// Goal: after a kill, all written records are intact and at most the record in progress is corrupted. Method:
+// processes that write into a mapped file and are killed at random instants (the seed is printed on failure).
+// kernel/tests/flight_step_test.cpp tests an end after each single instruction.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -31,7 +31,7 @@ Span<const std::byte> view_const(const Bytes& bytes) {
     return {bytes.data(), bytes.size()};
 }
 
-/// What the record with this number carries.
+/// Argument of the record with this number.
 std::int64_t calc_argument(std::uint64_t sequence) {
     return static_cast<std::int64_t>(sequence * 0x9E3779B97F4A7C15U);
 }
@@ -49,12 +49,13 @@ Bytes read_file(const std::string& path) {
     return bytes;
 }
 
-/// Records between two reports: so most kills come between two of them, and many within one.
+/// Records between two reports. With this number, most kills occur between two writes, and many during a
+/// write.
 constexpr std::uint64_t kBurst = 50U;
 
-/// Writes, and reports the newest number through the pipe when its write has returned; ends by being killed
-/// only.
-[[noreturn]] void write_for_ever(const char* path, std::size_t size, int report) {
+/// Writes records until it is killed. After the write of the last record of a burst, reports its number
+/// through the pipe.
+[[noreturn]] void write_until_killed(const char* path, std::size_t size, int report) {
     MappedFile file;
     FlightRecorder recorder;
     if (file.open(path, size) != Status::kOk || recorder.open(file.get_region()) != Status::kOk) {
@@ -77,7 +78,7 @@ std::uint64_t run_and_kill(const std::string& path, std::size_t size, std::mt199
     EXPECT_EQ(::pipe(ends.data()), 0);
     const pid_t child = ::fork();
     if (child == 0) {
-        write_for_ever(path.c_str(), size, ends[1]);
+        write_until_killed(path.c_str(), size, ends[1]);
     }
     static_cast<void>(::close(ends[1]));
     int reports = std::uniform_int_distribution<int>{1, 200}(generator);
@@ -85,7 +86,7 @@ std::uint64_t run_and_kill(const std::string& path, std::size_t size, std::mt199
     while (reports > 0 && ::read(ends[0], &last, sizeof last) == sizeof last) {
         --reports;
     }
-    EXPECT_EQ(reports, 0) << "the writer ended by itself";
+    EXPECT_EQ(reports, 0) << "the writer has exited";
     const int spins = std::uniform_int_distribution<int>{0, 20000}(generator);
     for (volatile int i = 0; i < spins; i = i + 1) {
     }
@@ -99,14 +100,14 @@ std::uint64_t run_and_kill(const std::string& path, std::size_t size, std::mt199
     return last;
 }
 
-/// @return the number with which a recorder would go on over these bytes; 0 where it refuses them.
+/// @return the number with which a recorder would continue these bytes; 0 if it rejects them.
 std::uint64_t open_copy(Bytes bytes) {
     FlightRecorder recorder;
     EXPECT_EQ(recorder.open({bytes.data(), bytes.size()}), Status::kOk);
     return recorder.get_next_sequence();
 }
 
-TEST(RecorderKillTest, KillLosesNoRecordThatWasWrittenBefore) {
+TEST(RecorderKillTest, KillLosesNoWrittenRecord) {
     verifies("SWR-REC-002", Technique::kFaultInjection, Polarity::kViolation);
     constexpr unsigned kSeed = 71977U;
     constexpr std::size_t kCapacity = 512U;
@@ -139,11 +140,11 @@ TEST(RecorderKillTest, KillLosesNoRecordThatWasWrittenBefore) {
                 ASSERT_EQ(record.session == round, record.sequence >= first_of_round);
             }
         }
-        // Those of earlier rounds stay until the ring comes round to them.
+        // Torn slots of earlier rounds remain until the ring overwrites them.
         ASSERT_LE(torn_count, torn_before + 1);
         torn_rounds += torn_count > torn_before ? 1 : 0;
         torn_before = torn_count;
-        // Behind the last report a burst may have taken the places of the oldest.
+        // After the last report, a burst can have overwritten the oldest records.
         const std::uint64_t newest_possible = reported + kBurst + 1U;
         const std::uint64_t first_kept = newest_possible > kCapacity ? newest_possible - kCapacity + 1U : 1U;
         for (std::uint64_t sequence = std::max(first_kept, first_of_round); sequence <= reported;
@@ -158,7 +159,7 @@ TEST(RecorderKillTest, KillLosesNoRecordThatWasWrittenBefore) {
         for (std::size_t slot = 0U; slot < kCapacity; ++slot) {
             spoiled[flight::calc_region_size(slot) + flight::kCommitOffset] = std::byte{1U};
         }
-        ASSERT_GE(open_copy(spoiled), first_of_round) << "no record is left to tell the numbers";
+        ASSERT_GE(open_copy(spoiled), first_of_round) << "no record with a number remains";
     }
     RecordProperty("rounds_with_a_torn_record", torn_rounds);
     fs::remove(path);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a reader gets whole frames or none, ends in bounded time and touches nothing but its memory, whatever
-// the other side does to it. Method: both sides of each limit; a write that is cut off after each of its
-// stores; a writer that is killed at random instants; memory full of random bytes, of valid frames with
-// single words changed, and of words that change while they are read. Seeds are printed on failure.
+// Goal: for any behaviour of the other side, a reader gets intact messages or none, ends in bounded time and
+// accesses only its memory. Method: both sides of each limit; a write that ends after each of its stores; a
+// writer that is killed at random instants; memory with random bytes, with valid messages that have single
+// changed words, and with words that change during the read. Seeds are printed on failure.
 #include "mamori/ports/posix_rt/shared_frame.hpp"
 
 #include <gtest/gtest.h>
@@ -24,11 +24,11 @@ namespace {
 
 using namespace verification;
 
-constexpr std::size_t kCapacity = 29U;  // no whole number of words
+constexpr std::size_t kCapacity = 29U;  // not a multiple of the word size
 constexpr std::size_t kSize = calc_frame_region_size(kCapacity);
 constexpr std::size_t kWordCount = kSize / sizeof(std::uint64_t);
 
-/// Exactly as large as it must be, so that a sanitizer sees each access beyond.
+/// Exactly the required size, so that a sanitizer detects each access beyond it.
 using Region = std::vector<std::uint64_t>;
 using Bytes = std::vector<std::byte>;
 
@@ -39,7 +39,7 @@ Span<const std::byte> view_const(Region& region) {
     return {reinterpret_cast<const std::byte*>(region.data()), region.size() * sizeof(std::uint64_t)};
 }
 
-/// Content that a number decides, its length too.
+/// Content whose bytes and length depend on a number.
 Bytes make_content(std::uint64_t number) {
     Bytes content(1U + number % kCapacity);
     for (std::size_t i = 0U; i < content.size(); ++i) {
@@ -60,7 +60,7 @@ struct Side {
     FrameFacts facts{};
 
     FrameOutcome take() { return reader.take({content.data(), content.size()}, facts); }
-    /// Whether what was taken last is what was written under its number.
+    /// True if the last message read equals the message that was written with its number.
     bool is_whole() const {
         const Bytes expected = make_content(facts.number);
         return facts.length == expected.size() &&
@@ -81,7 +81,7 @@ class SharedFrameTest : public ::testing::Test {
     Side side_{};
 };
 
-TEST_F(SharedFrameTest, EachFrameArrivesOnceWithItsFacts) {
+TEST_F(SharedFrameTest, EachMessageArrivesOnceWithItsFacts) {
     verifies("SWR-PRT-010");
 
     EXPECT_EQ(side_.take(), FrameOutcome::kNothingNew);
@@ -94,7 +94,7 @@ TEST_F(SharedFrameTest, EachFrameArrivesOnceWithItsFacts) {
     }
 }
 
-TEST_F(SharedFrameTest, TheNewestFrameIsTakenAndItsNumberTellsHowManyWereLost) {
+TEST_F(SharedFrameTest, TheNewestMessageIsReadAndItsNumberGivesTheLostCount) {
     verifies("SWR-PRT-010", Technique::kBoundaryValues);
     for (std::uint64_t number = 1U; number <= 9U; ++number) {
         ASSERT_EQ(write_next(writer_, number), Status::kOk);
@@ -106,7 +106,7 @@ TEST_F(SharedFrameTest, TheNewestFrameIsTakenAndItsNumberTellsHowManyWereLost) {
     EXPECT_EQ(side_.take(), FrameOutcome::kNothingNew);
 }
 
-TEST_F(SharedFrameTest, LengthsFromNothingToTheCapacityAreKeptAndNoLongerOneIsWritten) {
+TEST_F(SharedFrameTest, LengthsFromZeroToTheCapacityArriveAndLongerOnesAreRejected) {
     verifies("SWR-PRT-010", Technique::kBoundaryValues, Polarity::kViolation);
     const Bytes longest(kCapacity + 1U, std::byte{7U});
 
@@ -121,7 +121,7 @@ TEST_F(SharedFrameTest, LengthsFromNothingToTheCapacityAreKeptAndNoLongerOneIsWr
     EXPECT_EQ(side_.take(), FrameOutcome::kNothingNew);
 }
 
-TEST_F(SharedFrameTest, AMemoryThatDoesNotFitIsRefusedByBothSides) {
+TEST_F(SharedFrameTest, AMemoryOfWrongSizeIsRejectedByBothSides) {
     verifies("SWR-PRT-010", Technique::kBoundaryValues, Polarity::kViolation);
     FrameWriter writer;
     FrameReader reader;
@@ -143,7 +143,7 @@ TEST_F(SharedFrameTest, AMemoryThatDoesNotFitIsRefusedByBothSides) {
     EXPECT_EQ(reader.take({}, facts), FrameOutcome::kNothingNew);
 }
 
-TEST_F(SharedFrameTest, NumbersGoRoundWithoutNothing) {
+TEST_F(SharedFrameTest, NumbersWrapAroundAndSkipZero) {
     verifies("SWR-PRT-010", Technique::kBoundaryValues);
     region_[0U] = ~std::uint64_t{0U} - 1U;
     ASSERT_EQ(writer_.open(view(region_), kCapacity), Status::kOk);
@@ -157,7 +157,7 @@ TEST_F(SharedFrameTest, NumbersGoRoundWithoutNothing) {
     EXPECT_TRUE(side_.is_whole());
 }
 
-TEST_F(SharedFrameTest, AWriterThatComesAfterAnotherIsHeard) {
+TEST_F(SharedFrameTest, MessagesOfASecondWriterAreNew) {
     verifies("SWR-PRT-010");
     ASSERT_EQ(write_next(writer_, 1U), Status::kOk);
     ASSERT_EQ(side_.take(), FrameOutcome::kNew);
@@ -170,8 +170,8 @@ TEST_F(SharedFrameTest, AWriterThatComesAfterAnotherIsHeard) {
     EXPECT_TRUE(side_.is_whole());
 }
 
-/// The stores of the writer, in their order, as they change the memory.
-TEST_F(SharedFrameTest, AWriteThatIsCutOffAfterAnyOfItsStoresIsNotSeen) {
+/// Repeats the stores of the writer in their order.
+TEST_F(SharedFrameTest, AnIncompleteWriteIsNotSeenAfterAnyOfItsStores) {
     verifies("SWR-PRT-011", Technique::kFaultInjection, Polarity::kViolation);
     for (std::uint64_t number = 1U; number <= 8U; ++number) {
         ASSERT_EQ(write_next(writer_, number), Status::kOk);
@@ -199,12 +199,12 @@ TEST_F(SharedFrameTest, AWriteThatIsCutOffAfterAnyOfItsStoresIsNotSeen) {
     EXPECT_TRUE(side_.is_whole());
 }
 
-TEST_F(SharedFrameTest, AFrameThatContradictsItselfIsTornAndOneThatIsTooLongMalformed) {
+TEST_F(SharedFrameTest, AnInconsistentMessageIsTornAndAnOverlongOneMalformed) {
     verifies("SWR-PRT-011", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(write_next(writer_, 1U), Status::kOk);
     const std::size_t slot = 1U + (kWordCount - 1U) / 4U;
 
-    region_[0U] = 5U;  // the slot of 1, which is not 5
+    region_[0U] = 5U;  // its slot contains number 1
     EXPECT_EQ(side_.take(), FrameOutcome::kTorn);
     EXPECT_EQ(side_.take(), FrameOutcome::kTorn);
     region_[slot] = 5U;
@@ -219,7 +219,7 @@ TEST_F(SharedFrameTest, AFrameThatContradictsItselfIsTornAndOneThatIsTooLongMalf
     EXPECT_EQ(side_.take(), FrameOutcome::kMalformed);
 }
 
-TEST_F(SharedFrameTest, AnyBytesAreReadWithinTheMemoryAndItsLimits) {
+TEST_F(SharedFrameTest, RandomBytesAreReadWithinTheMemoryAndItsLimits) {
     verifies("SWR-PRT-011", Technique::kFaultInjection, Polarity::kViolation);
     constexpr unsigned kSeed = 40417U;
     SCOPED_TRACE("seed " + std::to_string(kSeed));
@@ -243,10 +243,10 @@ TEST_F(SharedFrameTest, AnyBytesAreReadWithinTheMemoryAndItsLimits) {
             ASSERT_EQ(side_.facts.number, region_[0U]);
         }
     }
-    EXPECT_GT(news, 1000U) << "the bytes were so wrong that nothing was tried";
+    EXPECT_GT(news, 1000U) << "too few of the memories led to a read";
 }
 
-TEST_F(SharedFrameTest, FramesThatAreOverwrittenWhileTheyAreReadAreNeverMixed) {
+TEST_F(SharedFrameTest, MessagesThatAreOverwrittenDuringTheReadAreNeverMixed) {
     verifies("SWR-PRT-011", Technique::kErrorGuessing, Polarity::kViolation);
     constexpr std::uint64_t kFrames = 300'000U;
     std::thread thread{[this] {
@@ -271,7 +271,7 @@ TEST_F(SharedFrameTest, FramesThatAreOverwrittenWhileTheyAreReadAreNeverMixed) {
     RecordProperty("frames_read", static_cast<int>(news));
 }
 
-TEST_F(SharedFrameTest, WordsThatChangeWhileTheyAreReadLeadNowhere) {
+TEST_F(SharedFrameTest, WordsThatChangeDuringTheReadAreHarmless) {
     verifies("SWR-PRT-011", Technique::kFaultInjection, Polarity::kViolation);
     constexpr unsigned kSeed = 977U;
     SCOPED_TRACE("seed " + std::to_string(kSeed));
@@ -293,8 +293,8 @@ TEST_F(SharedFrameTest, WordsThatChangeWhileTheyAreReadLeadNowhere) {
     thread.join();
 }
 
-/// Writes for ever; is killed.
-[[noreturn]] void write_for_ever(std::byte* memory) {
+/// Writes until it is killed.
+[[noreturn]] void write_until_killed(std::byte* memory) {
     FrameWriter writer;
     if (writer.open({memory, kSize}, kCapacity) != Status::kOk) {
         ::_exit(1);
@@ -311,7 +311,7 @@ TEST_F(SharedFrameTest, WordsThatChangeWhileTheyAreReadLeadNowhere) {
     }
 }
 
-TEST_F(SharedFrameTest, AWriterThatIsKilledAtAnyInstantLeavesWholeFrames) {
+TEST_F(SharedFrameTest, AWriterKilledAtRandomInstantsLeavesIntactMessages) {
     verifies("SWR-PRT-011", Technique::kFaultInjection, Polarity::kViolation);
     constexpr unsigned kSeed = 5501U;
     SCOPED_TRACE("seed " + std::to_string(kSeed));
@@ -324,7 +324,7 @@ TEST_F(SharedFrameTest, AWriterThatIsKilledAtAnyInstantLeavesWholeFrames) {
     for (int round = 0; round < 60; ++round) {
         const pid_t child = ::fork();
         if (child == 0) {
-            write_for_ever(static_cast<std::byte*>(shared));
+            write_until_killed(static_cast<std::byte*>(shared));
         }
         const auto spins = static_cast<std::size_t>(random() % 4000U);
         for (std::size_t seen = 0U; seen <= spins;) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the side that reads cannot write, the side that writes cannot take the memory away, and whatever is
-// none of it is refused with its cause. Method: both sides in one process, as two mappings; the forbidden
-// write in a process of its own; limits of the process in place of a machine without room.
+// Goal: the reading side cannot write, the writing side cannot remove the memory, and invalid descriptors are
+// rejected with the cause. Method: both sides in one process, as two mappings; the forbidden write in a
+// separate process; process limits simulate an exhausted system.
 #include "mamori/ports/posix_rt/shared_memory.hpp"
 
 #include <fcntl.h>
@@ -24,9 +24,9 @@ namespace {
 
 using namespace verification;
 
-constexpr std::size_t kSize = 5000U;  // no whole number of pages
+constexpr std::size_t kSize = 5000U;  // not a multiple of the page size
 
-/// Another limit of the process, for as long as it lives.
+/// Changes a limit of the process during its lifetime.
 class LimitFor final {
   public:
     LimitFor(__rlimit_resource_t resource, rlim_t limit) : resource_(resource) {
@@ -70,7 +70,7 @@ TEST(SharedMemoryTest, TheReaderSeesWhatTheOtherSideWrites) {
     EXPECT_EQ(reader.get_region().data()[kSize - 1U], std::byte{7U});
 }
 
-TEST(SharedMemoryTest, TheTrustedWriterIsSeenByWhoeverAdopts) {
+TEST(SharedMemoryTest, TheAdoptingReaderSeesTheWritesOfTheTrustedSide) {
     verifies("SWR-PRT-012");
     SharedMemory writer;
     SharedMemory reader;
@@ -90,7 +90,7 @@ TEST(SharedMemoryDeathTest, AWriteByTheReaderEndsInASegmentationFault) {
     SharedMemory reader;
     ASSERT_EQ(reader.create("test", kSize, SharedAccess::kRead), Status::kOk);
     const auto attempt = [&reader] {
-        static_cast<void>(std::signal(SIGSEGV, SIG_DFL));  // a sanitizer has a handler of its own
+        static_cast<void>(std::signal(SIGSEGV, SIG_DFL));  // a sanitizer installs a handler
         *static_cast<volatile std::byte*>(to_writable(reader)) = std::byte{1U};
     };
 
@@ -112,7 +112,7 @@ TEST(SharedMemoryTest, NoMappingForReadingBecomesWritable) {
     EXPECT_EQ(::mprotect(to_writable(adopted), kSize, PROT_READ | PROT_WRITE), -1);
 }
 
-TEST(SharedMemoryTest, NobodyElseCanWriteWhereTheCreatorDoes) {
+TEST(SharedMemoryTest, OnlyTheCreatorCanWriteItsMemory) {
     verifies("SWR-PRT-012", Technique::kFaultInjection, Polarity::kViolation);
     SharedMemory writer;
     SharedMemory other;
@@ -125,10 +125,10 @@ TEST(SharedMemoryTest, NobodyElseCanWriteWhereTheCreatorDoes) {
     EXPECT_EQ(other.get_system_error(), EPERM);
     EXPECT_FALSE(other.is_open());
     EXPECT_EQ(::pwrite(descriptor, &byte, 1U, 0), -1);
-    EXPECT_EQ(::close(descriptor), 0) << "a refused descriptor stays open";
+    EXPECT_EQ(::close(descriptor), 0) << "a rejected descriptor stays open";
 }
 
-TEST(SharedMemoryTest, NobodyCanChangeTheSize) {
+TEST(SharedMemoryTest, TheSizeCannotBeChanged) {
     verifies("SWR-PRT-012", Technique::kFaultInjection, Polarity::kViolation);
     SharedMemory reader;
     SharedMemory writer;
@@ -142,7 +142,7 @@ TEST(SharedMemoryTest, NobodyCanChangeTheSize) {
     }
 }
 
-/// A descriptor and what is wrong with it.
+/// Checks that a descriptor is rejected with the expected error.
 void expect_refused(int descriptor, std::size_t size, SharedMemoryError error) {
     SharedMemory sut;
     EXPECT_EQ(sut.adopt(descriptor, size, SharedAccess::kRead), Status::kError);
@@ -150,7 +150,7 @@ void expect_refused(int descriptor, std::size_t size, SharedMemoryError error) {
     EXPECT_FALSE(sut.is_open());
 }
 
-TEST(SharedMemoryTest, WhatIsNoSealedMemoryOfThatSizeIsRefused) {
+TEST(SharedMemoryTest, UnsealedMemoryOrAWrongSizeIsRejected) {
     verifies("SWR-PRT-012", Technique::kEquivalenceClasses, Polarity::kViolation);
     SharedMemory memory;
     ASSERT_EQ(memory.create("test", kSize, SharedAccess::kRead), Status::kOk);
@@ -182,7 +182,7 @@ TEST(SharedMemoryTest, ArgumentsOutOfRangeAndASecondOpeningChangeNothing) {
     EXPECT_EQ(sut.get_region().size(), 1U);
 }
 
-TEST(SharedMemoryTest, AMachineWithoutRoomIsTold) {
+TEST(SharedMemoryTest, AnExhaustedSystemIsReported) {
     verifies("SWR-PRT-012", Technique::kFaultInjection, Polarity::kViolation);
     SharedMemory sut;
     {
@@ -204,7 +204,7 @@ TEST(SharedMemoryTest, AMachineWithoutRoomIsTold) {
     EXPECT_EQ(sut.get_system_error(), 0);
 }
 
-TEST(SharedMemoryTest, ACallThatTheSystemRefusesIsToldAndLeavesNothingOpen) {
+TEST(SharedMemoryTest, ARejectedSystemCallIsReportedAndLeavesNothingOpen) {
     verifies("SWR-PRT-012", Technique::kFaultInjection, Polarity::kViolation);
     struct Case {
         std::uint32_t call;
@@ -227,13 +227,13 @@ TEST(SharedMemoryTest, ACallThatTheSystemRefusesIsToldAndLeavesNothingOpen) {
                           EXPECT_TRUE(sut.get_region().empty());
                           EXPECT_TRUE(sut.get_writable_region().empty());
                       }
-                      EXPECT_EQ(::dup(0), next) << "a descriptor is left";
+                      EXPECT_EQ(::dup(0), next) << "a descriptor is still open";
                   }),
                   0);
     }
 }
 
-TEST(SharedMemoryTest, ACauseWithoutAnErrorOfTheSystemKeepsNoneOfAnEarlierOne) {
+TEST(SharedMemoryTest, ACauseWithoutASystemErrorClearsThePreviousSystemError) {
     verifies("SWR-PRT-012", Technique::kErrorGuessing);
     SharedMemory created;
     ASSERT_EQ(created.create("test", kSize, SharedAccess::kWrite), Status::kOk);
@@ -246,7 +246,7 @@ TEST(SharedMemoryTest, ACauseWithoutAnErrorOfTheSystemKeepsNoneOfAnEarlierOne) {
     EXPECT_EQ(sut.get_system_error(), 0);
 }
 
-TEST(SharedMemoryTest, EachCauseHasItsOwnSentence) {
+TEST(SharedMemoryTest, EachCauseHasItsOwnMessage) {
     verifies("SWR-PRT-012", Technique::kEquivalenceClasses);
     const auto last = static_cast<int>(SharedMemoryError::kCannotMap);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: locking memory asks for no more stack than its thread has. Method: threads with stacks from the
-// smallest that Linux allows on; this test and the sources under test are compiled without optimisation,
-// where each local object takes its place and copies are made (see CMakeLists.txt).
+// Goal: lock_memory() uses no more stack than its thread has. Method: threads with stacks from the minimum
+// that Linux permits. This test and the tested sources are compiled without optimisation, so that each local
+// object and copy uses stack (see CMakeLists.txt).
 #include <gtest/gtest.h>
 #include <limits.h>
 #include <pthread.h>
@@ -26,10 +26,10 @@ constexpr std::size_t kPage = 4096U;
 struct Call {
     std::size_t asked;
     bool has_returned{false};
-    std::size_t resident_pages{0U};  ///< of the stack of the thread, afterwards
+    std::size_t resident_pages{0U};  ///< resident pages of the stack after the call
 };
 
-/// Pages of the calling thread's stack that are in memory.
+/// Resident pages of the stack of the calling thread.
 std::size_t count_stack_pages() {
     pthread_attr_t attributes;
     void* lowest = nullptr;
@@ -70,7 +70,7 @@ std::size_t get_smallest() {
     return static_cast<std::size_t>(PTHREAD_STACK_MIN);
 }
 
-TEST(SmallStackTest, LockingOnASmallStackTouchesOnlyWhatIsThere) {
+TEST(SmallStackTest, LockingOnASmallStackTouchesOnlyItsPages) {
     verifies("SWR-PRT-046", Technique::kBoundaryValues, Polarity::kViolation);
     for (const std::size_t size : {get_smallest(), get_smallest() + kPage, std::size_t{64U} * 1024U,
                                    std::size_t{256U} * 1024U, std::size_t{1024U} * 1024U}) {
@@ -81,7 +81,7 @@ TEST(SmallStackTest, LockingOnASmallStackTouchesOnlyWhatIsThere) {
     }
 }
 
-TEST(SmallStackTest, WithoutTheRightToLockTheStackIsInMemoryAllTheSame) {
+TEST(SmallStackTest, WithoutThePrivilegeToLockTheStackIsResident) {
     verifies("SWR-PRT-046", Technique::kFaultInjection);
     EXPECT_EQ(run_in_process([] {
                   ASSERT_TRUE(refuse_call(SYS_mlockall, EPERM, false));
@@ -91,7 +91,7 @@ TEST(SmallStackTest, WithoutTheRightToLockTheStackIsInMemoryAllTheSame) {
               0);
 }
 
-TEST(SmallStackTest, WhatWasAskedForIsInMemoryAfterwards) {
+TEST(SmallStackTest, TheRequestedBytesAreResidentAfterwards) {
     verifies("SWR-PRT-046");
     constexpr std::size_t kStack = std::size_t{4U} * 1024U * 1024U;
     const Call call = lock_on_stack(kStack, 128U * kPage);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the watchdog closes the outputs by itself when it is not served in its window, and at no other time.
-// Method: by the clock, with limits so far apart that no speed of the machine decides; nothing is asked of an
-// upper bound of time here: that is verification/lost_service. The rules of every port: conformance_test.cpp.
+// Goal: the watchdog closes the outputs if it is not serviced in its window, and at no other time. Method: in
+// real time, with limits that do not depend on the speed of the host. Upper bounds of time:
+// verification/lost_service. The rules of all ports: conformance_test.cpp.
 #include "mamori/ports/posix_rt/software_watchdog.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ using namespace verification;
 constexpr Duration kShort = 5_ms;
 constexpr Duration kHour = Duration{3'600'000'000'000};
 
-/// What the reaction takes away.
+/// Outputs that the reaction closes.
 struct Outputs {
     std::atomic<int> closings{0};
     std::atomic<std::int64_t> closed_at_ns{0};
@@ -56,10 +56,10 @@ class SoftwareWatchdogTest : public ::testing::Test {
     FakeDriver& driver_ = FakeDriver::get();
 };
 
-TEST_F(SoftwareWatchdogTest, ServedInTimeItTakesEachServiceAndLeavesTheOutputsAlone) {
+TEST_F(SoftwareWatchdogTest, WithServicesInTimeTheOutputsStayOpen) {
     verifies("SWR-PRT-020");
     SoftwareWatchdog sut{clock_, {0_ms, kHour}, make_reaction()};
-    EXPECT_EQ(sut.service(clock_.get_now()), Status::kError) << "nobody watches yet";
+    EXPECT_EQ(sut.service(clock_.get_now()), Status::kError) << "the watchdog is not open yet";
     ASSERT_EQ(sut.open({}), Status::kOk);
     EXPECT_EQ(sut.open({}), Status::kPreconditionNotMet);
     for (int i = 0; i < 20; ++i) {
@@ -71,10 +71,10 @@ TEST_F(SoftwareWatchdogTest, ServedInTimeItTakesEachServiceAndLeavesTheOutputsAl
     EXPECT_EQ(sut.close(), Status::kPreconditionNotMet);
     EXPECT_EQ(sut.service(clock_.get_now()), Status::kError);
     EXPECT_FALSE(sut.has_expired());
-    EXPECT_EQ(outputs_.closings, 0) << "closed on purpose";
+    EXPECT_EQ(outputs_.closings, 0) << "closed deliberately";
 }
 
-TEST_F(SoftwareWatchdogTest, WithoutAFirstServiceItStaysSilent) {
+TEST_F(SoftwareWatchdogTest, WithoutAFirstServiceItStaysInactive) {
     verifies("SWR-PRT-020");
     SoftwareWatchdog sut{clock_, {0_ms, kShort}, make_reaction()};
     ASSERT_EQ(sut.open({}), Status::kOk);
@@ -84,24 +84,24 @@ TEST_F(SoftwareWatchdogTest, WithoutAFirstServiceItStaysSilent) {
     EXPECT_EQ(outputs_.closings, 0);
 }
 
-TEST_F(SoftwareWatchdogTest, NotServedItExpiresForGoodAndTakesNoServiceAnyMore) {
+TEST_F(SoftwareWatchdogTest, WithoutServiceItExpiresPermanentlyAndRejectsServices) {
     verifies("SWR-PRT-020", Technique::kFaultInjection, Polarity::kViolation);
     SoftwareWatchdog sut{clock_, {0_ms, kShort}, make_reaction()};
     ASSERT_EQ(sut.open({}), Status::kOk);
     ASSERT_EQ(sut.service(clock_.get_now()), Status::kOk);
     let_pass(kShort + 1_ns);
 
-    EXPECT_TRUE(sut.has_expired()) << "from the instant on, wherever its thread is";
+    EXPECT_TRUE(sut.has_expired()) << "immediately, also if its thread has not reacted yet";
     EXPECT_EQ(sut.get_cause(), WatchdogCause::kLate);
     EXPECT_EQ(sut.service(clock_.get_now()), Status::kError);
     EXPECT_EQ(sut.close(), Status::kOk);
     EXPECT_TRUE(sut.has_expired());
     ASSERT_EQ(sut.open({}), Status::kOk);
-    EXPECT_EQ(sut.service(clock_.get_now()), Status::kError) << "opening it again helps nothing";
+    EXPECT_EQ(sut.service(clock_.get_now()), Status::kError) << "a second open() does not reset it";
     EXPECT_EQ(sut.close(), Status::kOk);
 }
 
-TEST_F(SoftwareWatchdogTest, WhatTheCallerTakesForTheTimeIsNotAsked) {
+TEST_F(SoftwareWatchdogTest, TheTimeOfTheCallerIsNotUsed) {
     verifies("SWR-PRT-020", Technique::kFaultInjection, Polarity::kViolation);
     SoftwareWatchdog sut{clock_, {0_ms, kShort}, make_reaction()};
     ASSERT_EQ(sut.open({}), Status::kOk);
@@ -113,11 +113,11 @@ TEST_F(SoftwareWatchdogTest, WhatTheCallerTakesForTheTimeIsNotAsked) {
     EXPECT_EQ(sut.close(), Status::kOk);
 }
 
-TEST_F(SoftwareWatchdogTest, ServiceBeforeTheWindowExpiresItAtOnce) {
+TEST_F(SoftwareWatchdogTest, ServiceBeforeTheWindowExpiresItImmediately) {
     verifies("SWR-PRT-020", Technique::kBoundaryValues, Polarity::kViolation);
     SoftwareWatchdog sut{clock_, {kHour, kHour * 2}, make_reaction()};
     ASSERT_EQ(sut.open({}), Status::kOk);
-    ASSERT_EQ(sut.service(clock_.get_now()), Status::kOk) << "the first has no distance to keep";
+    ASSERT_EQ(sut.service(clock_.get_now()), Status::kOk) << "the first service may occur at any time";
 
     EXPECT_EQ(sut.service(clock_.get_now()), Status::kError);
     EXPECT_EQ(sut.get_cause(), WatchdogCause::kEarly);
@@ -125,7 +125,7 @@ TEST_F(SoftwareWatchdogTest, ServiceBeforeTheWindowExpiresItAtOnce) {
     EXPECT_EQ(sut.close(), Status::kOk);
 }
 
-TEST_F(SoftwareWatchdogTest, ServiceInsideTheWindowIsTaken) {
+TEST_F(SoftwareWatchdogTest, ServiceInsideTheWindowIsAccepted) {
     verifies("SWR-PRT-020", Technique::kBoundaryValues);
     SoftwareWatchdog sut{clock_, {kShort, kHour}, make_reaction()};
     ASSERT_EQ(sut.open({}), Status::kOk);
@@ -149,7 +149,7 @@ TEST_F(SoftwareWatchdogTest, WindowWithoutAnEndNeverExpires) {
     EXPECT_EQ(outputs_.closings, 0);
 }
 
-TEST_F(SoftwareWatchdogTest, OutputsAreClosedOnceWhileTheGuiltyCodeHangs) {
+TEST_F(SoftwareWatchdogTest, OutputsAreClosedOnceWhileTheFaultyCodeHangs) {
     verifies("SWR-PRT-021", Technique::kFaultInjection, Polarity::kViolation);
     SoftwareWatchdog sut{clock_, {0_ms, kShort}, make_reaction()};
     ASSERT_EQ(sut.open({}), Status::kOk);
@@ -158,7 +158,7 @@ TEST_F(SoftwareWatchdogTest, OutputsAreClosedOnceWhileTheGuiltyCodeHangs) {
 
     while (outputs_.closings == 0) {  // this is the code that hangs
     }
-    EXPECT_GT(Instant{outputs_.closed_at_ns.load()} - before, kShort) << "not before the time is over";
+    EXPECT_GT(Instant{outputs_.closed_at_ns.load()} - before, kShort) << "not before the timeout";
     let_pass(kShort * 3);
     static_cast<void>(sut.service(clock_.get_now()));
     EXPECT_EQ(sut.close(), Status::kOk);
@@ -174,7 +174,7 @@ TEST_F(SoftwareWatchdogTest, ClosingItLateClosesTheOutputsToo) {
         while (!sut.has_expired()) {
         }
         EXPECT_EQ(sut.close(), Status::kOk);
-        EXPECT_EQ(outputs_.closings, i) << "what has_expired() said is so";
+        EXPECT_EQ(outputs_.closings, i) << "has_expired() and the outputs agree";
     }
 }
 
@@ -197,13 +197,13 @@ void make(const FrameClock& clock, safety::WatchdogWindow window, WatchdogReacti
     const SoftwareWatchdog sut{clock, window, reaction};
 }
 
-TEST_F(SoftwareWatchdogTest, ProcessIsEndedAfterTheOutputsWhereThatIsAskedFor) {
+TEST_F(SoftwareWatchdogTest, ProcessIsEndedAfterTheOutputsOnRequest) {
     verifies("SWR-PRT-021", Technique::kFaultInjection, Polarity::kViolation);
     EXPECT_EXIT(hang_under_a_watchdog_that_ends_the_process(clock_), ::testing::KilledBySignal(SIGABRT),
                 "^outputs closed\n$");
 }
 
-TEST_F(SoftwareWatchdogTest, OneThatGoesWhileItIsOpenAndOneThatCannotWatchAreOwnBugs) {
+TEST_F(SoftwareWatchdogTest, DestructionWhileOpenAndInvalidParametersAreContractViolations) {
     verifies("SWR-PRT-021", Technique::kErrorGuessing, Polarity::kViolation);
     EXPECT_CHECK_FAILS(leave_it_open(clock_, make_reaction()), "software_watchdog.hpp", 3);
     EXPECT_CHECK_FAILS(make(clock_, {1_ms, 1_ms}, make_reaction()), "software_watchdog.hpp", 1);
@@ -211,7 +211,7 @@ TEST_F(SoftwareWatchdogTest, OneThatGoesWhileItIsOpenAndOneThatCannotWatchAreOwn
     EXPECT_CHECK_FAILS(make(clock_, {0_ms, 1_ms}, {nullptr}), "software_watchdog.hpp", 2);
 }
 
-TEST_F(SoftwareWatchdogTest, RightsOfTheThreadAreToldAndARefusalDoesNotStopIt) {
+TEST_F(SoftwareWatchdogTest, PrivilegesOfTheThreadAreReportedAndADenialDoesNotStopIt) {
     verifies("SWR-PRT-021", Technique::kErrorGuessing);
     SoftwareWatchdog sut{clock_, {0_ms, kShort}, make_reaction()};
     ASSERT_EQ(sut.open({0, 100'000}), Status::kOk);
@@ -221,7 +221,7 @@ TEST_F(SoftwareWatchdogTest, RightsOfTheThreadAreToldAndARefusalDoesNotStopIt) {
     EXPECT_EQ(sut.close(), Status::kOk);
     SoftwareWatchdog other{clock_, {0_ms, kShort}, make_reaction()};
     ASSERT_EQ(other.open({}), Status::kOk);
-    EXPECT_TRUE(other.get_priority_right().is_granted) << "nothing was asked for";
+    EXPECT_TRUE(other.get_priority_right().is_granted) << "no privilege was requested";
     EXPECT_EQ(other.close(), Status::kOk);
 }
 
@@ -229,7 +229,7 @@ class ChainedWatchdogTest : public SoftwareWatchdogTest {
   protected:
     ChainedWatchdogTest() { EXPECT_EQ(device_.open("/dev/fake", 1000_ms), Status::kOk); }
     ~ChainedWatchdogTest() override { static_cast<void>(device_.disarm()); }
-    /// Returns when the device has been served `more` times more.
+    /// Returns after `more` further services of the device.
     void wait_for_services(int more) const {
         const int wanted = driver_.services + more;
         while (driver_.services < wanted) {
@@ -240,7 +240,7 @@ class ChainedWatchdogTest : public SoftwareWatchdogTest {
     WatchdogDevice device_{kFakeCalls};
 };
 
-TEST_F(ChainedWatchdogTest, DeviceIsServedWhileTheWatchdogIsSilentAndWhileItIsServed) {
+TEST_F(ChainedWatchdogTest, DeviceIsServicedBeforeAndAfterTheFirstService) {
     verifies("SWR-PRT-025");
     SoftwareWatchdog sut{clock_, {0_ms, kHour}, make_reaction()};
     ASSERT_EQ(sut.open({}, &device_), Status::kOk);
@@ -248,13 +248,13 @@ TEST_F(ChainedWatchdogTest, DeviceIsServedWhileTheWatchdogIsSilentAndWhileItIsSe
     ASSERT_EQ(sut.service(clock_.get_now()), Status::kOk);
     const Instant before = clock_.get_now();
     wait_for_services(3);
-    EXPECT_GE(clock_.get_now() - before, 500_ms) << "four times in its second, not with each service";
+    EXPECT_GE(clock_.get_now() - before, 500_ms) << "four times per second, not with each service";
     EXPECT_FALSE(sut.has_expired());
     EXPECT_EQ(sut.close(), Status::kOk);
     EXPECT_TRUE(driver_.is_running) << "the owner disarms it";
 }
 
-TEST_F(ChainedWatchdogTest, DeviceIsNotServedAnyMoreOnceTheWatchdogHasExpired) {
+TEST_F(ChainedWatchdogTest, DeviceIsNotServicedAfterTheWatchdogHasExpired) {
     verifies("SWR-PRT-025", Technique::kFaultInjection, Polarity::kViolation);
     SoftwareWatchdog sut{clock_, {0_ms, kShort}, make_reaction()};
     ASSERT_EQ(sut.open({}, &device_), Status::kOk);
@@ -267,7 +267,7 @@ TEST_F(ChainedWatchdogTest, DeviceIsNotServedAnyMoreOnceTheWatchdogHasExpired) {
     EXPECT_EQ(sut.close(), Status::kOk);
 }
 
-TEST_F(ChainedWatchdogTest, DeviceThatDoesNotTakeAServiceExpiresTheWatchdog) {
+TEST_F(ChainedWatchdogTest, DeviceThatRejectsAServiceExpiresTheWatchdog) {
     verifies("SWR-PRT-025", Technique::kFaultInjection, Polarity::kViolation);
     SoftwareWatchdog sut{clock_, {0_ms, kHour}, make_reaction()};
     ASSERT_EQ(sut.open({}, &device_), Status::kOk);
@@ -281,7 +281,7 @@ TEST_F(ChainedWatchdogTest, DeviceThatDoesNotTakeAServiceExpiresTheWatchdog) {
     driver_.write_error = 0;
 }
 
-TEST_F(ChainedWatchdogTest, DeviceThatIsClosedIsRefused) {
+TEST_F(ChainedWatchdogTest, ClosedDeviceIsRejected) {
     verifies("SWR-PRT-025", Technique::kErrorGuessing, Polarity::kViolation);
     WatchdogDevice closed{kFakeCalls};
     SoftwareWatchdog sut{clock_, {0_ms, kHour}, make_reaction()};

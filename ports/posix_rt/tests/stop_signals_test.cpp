@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: stop signals reach the listener while it is installed, and then the handlers of the application
-// again. Method: signals that this thread raises.
+// Goal: stop signals reach the listener while it is installed, and the handlers of the application
+// afterwards. Method: signals that this thread raises.
 #include "mamori/ports/posix_rt/stop_signals.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a window that hangs never keeps its guard or another window from running, whatever scheduling the
-// thread has that opens the host. Method: a runner with a fixed priority and windows that compute without a
-// pause, all bound to one processor, so that only policy and priority decide; policies are read back from
-// Linux. Each hang ends by itself after a few seconds. Without the privilege for fixed priorities the tests
-// that need one are skipped.
+// Goal: a hanging window never prevents its guard or another window from running, with any scheduling of the
+// thread that opens the host. Method: a runner with a fixed priority and windows that compute without a
+// pause, all bound to one processor, so that only policy and priority decide; the tests read policies back
+// from Linux. Each hang ends after a few seconds. Without the privilege for fixed priorities the tests that
+// need one are skipped.
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/resource.h>
@@ -53,7 +53,7 @@ void run_as_runner(int priority, const std::function<void()>& act) {
     }}.join();
 }
 
-/// Policy and fixed priority of a thread, as Linux has them.
+/// Policy and fixed priority of a thread, read from Linux.
 struct Scheduling {
     int policy{-1};
     int priority{-1};
@@ -93,7 +93,7 @@ class HangTest : public ::testing::Test {
         return host.run_within({&run_step, this, window, window, 0U, 1U, WindowHost::Pass::kExecute},
                                clock_.get_now() + budget);
     }
-    /// Lets the first window hang. @return its scheduling after it was cut off.
+    /// Lets the first window hang. @return its scheduling after the abort.
     Scheduling hang(GuardedHost& host) {
         EXPECT_EQ(run_window(host, kHanging, 30_ms), 0U);
         EXPECT_FALSE(host.has_returned(kHanging)) << "the guard ran only after the hang";
@@ -119,7 +119,7 @@ class HangTest : public ::testing::Test {
     Scheduling seen_{};
 };
 
-TEST_F(HangTest, WindowsWithoutAPriorityDoNotInheritThatOfTheirOpener) {
+TEST_F(HangTest, WindowsWithoutAPriorityDoNotInheritThatOfTheOpeningThread) {
     verifies("SWR-PRT-040", Technique::kFaultInjection, Polarity::kViolation);
     if (!has_privilege()) {
         GTEST_SKIP() << kNoPrivilege;
@@ -158,12 +158,12 @@ TEST_F(HangTest, WindowsAtOrAboveTheRunnerAreRejectedAndNoThreadIsLeft) {
         EXPECT_EQ(host.close(), Status::kOk);
     }
     GuardedHost below{threads_, clock_, {kRunnerPriority - 1, kAny}};
-    EXPECT_EQ(below.open(kRunnerPriority), Status::kOk) << "and its threads were free";
+    EXPECT_EQ(below.open(kRunnerPriority), Status::kOk) << "the threads can be used again";
     EXPECT_EQ(below.open(kRunnerPriority), Status::kPreconditionNotMet);
     EXPECT_EQ(below.close(), Status::kOk);
 }
 
-TEST_F(HangTest, PriorityOfTheOpenerCountsWhereNoneIsGiven) {
+TEST_F(HangTest, PriorityOfTheOpeningThreadIsTheDefault) {
     verifies("SWR-PRT-041", Technique::kFaultInjection, Polarity::kViolation);
     if (!has_privilege()) {
         GTEST_SKIP() << kNoPrivilege;
@@ -175,11 +175,11 @@ TEST_F(HangTest, PriorityOfTheOpenerCountsWhereNoneIsGiven) {
         });
     }
     GuardedHost host{threads_, clock_, {1, kAny}};
-    EXPECT_EQ(host.open(), Status::kBadParameter) << "an ordinary thread guards no fixed priority";
+    EXPECT_EQ(host.open(), Status::kBadParameter) << "an ordinary thread cannot guard a fixed priority";
     EXPECT_EQ(host.close(), Status::kOk);
 }
 
-TEST_F(HangTest, RunnerThatIsNotAboveTheWindowsTakesTheirPriorityAndSaysSo) {
+TEST_F(HangTest, RunnerThatIsNotAboveTheWindowsRemovesTheirPriorityAndReportsIt) {
     verifies("SWR-PRT-041", Technique::kFaultInjection, Polarity::kViolation);
     if (!has_privilege()) {
         GTEST_SKIP() << kNoPrivilege;
@@ -200,7 +200,7 @@ TEST_F(HangTest, RunnerThatIsNotAboveTheWindowsTakesTheirPriorityAndSaysSo) {
     });
 }
 
-TEST_F(HangTest, ThreadThatWasCutOffLosesItsPriorityUntilItIsBack) {
+TEST_F(HangTest, ThreadOfAbortedWorkLosesItsPriorityUntilTheWorkReturns) {
     verifies("SWR-PRT-004", Technique::kFaultInjection, Polarity::kViolation);
     if (!has_privilege()) {
         GTEST_SKIP() << kNoPrivilege;
@@ -208,8 +208,8 @@ TEST_F(HangTest, ThreadThatWasCutOffLosesItsPriorityUntilItIsBack) {
     run_as_runner(kRunnerPriority, [this] {
         GuardedHost host{threads_, clock_, {5, kAny}};
         ASSERT_EQ(host.open(), Status::kOk);
-        EXPECT_EQ(hang(host), kOrdinary) << "read from Linux: the number of processors plays no part";
-        EXPECT_EQ(seen_, (Scheduling{SCHED_FIFO, 5})) << "while it had its budget";
+        EXPECT_EQ(hang(host), kOrdinary) << "read from Linux, on any number of processors";
+        EXPECT_EQ(seen_, (Scheduling{SCHED_FIFO, 5})) << "within its budget";
         expect_that_the_other_window_runs(host);
 
         is_hanging_ = false;
@@ -217,13 +217,13 @@ TEST_F(HangTest, ThreadThatWasCutOffLosesItsPriorityUntilItIsBack) {
             clock_.wait_until(clock_.get_now() + 1_ms);
         }
         static_cast<void>(hang(host));
-        EXPECT_EQ(seen_, (Scheduling{SCHED_FIFO, 5})) << "with the next work it is back";
+        EXPECT_EQ(seen_, (Scheduling{SCHED_FIFO, 5})) << "restored for the next work";
         EXPECT_TRUE(host.get_priority_right().is_granted);
         end(host);
     });
 }
 
-TEST_F(HangTest, PriorityThatIsNotGivenBackIsReported) {
+TEST_F(HangTest, PriorityThatIsNotRestoredIsReported) {
     verifies("SWR-PRT-004", Technique::kFaultInjection, Polarity::kViolation);
     if (!has_privilege() || geteuid() != 0U) {
         GTEST_SKIP() << kNoPrivilege;
@@ -252,7 +252,7 @@ TEST_F(HangTest, PriorityThatIsNotGivenBackIsReported) {
               0);
 }
 
-TEST_F(HangTest, OrdinaryThreadThatWasCutOffRunsBelowAllOthersUntilItIsBack) {
+TEST_F(HangTest, OrdinaryThreadOfAbortedWorkRunsBelowAllOthersUntilTheWorkReturns) {
     verifies("SWR-PRT-042", Technique::kFaultInjection, Polarity::kViolation);
     if (!may_leave_idle()) {
         GTEST_SKIP() << "verdict=no-privilege: this host does not let a thread leave SCHED_IDLE "
@@ -272,7 +272,7 @@ TEST_F(HangTest, OrdinaryThreadThatWasCutOffRunsBelowAllOthersUntilItIsBack) {
     end(host);
 }
 
-/// What the thread of a watch finds of its own scheduling when it closes the outputs.
+/// Scheduling that the watch thread reads when it closes the outputs.
 struct Outputs {
     std::atomic<bool> is_closed{false};
     Scheduling seen{};
@@ -289,7 +289,7 @@ struct Outputs {
     }
 };
 
-TEST(WatchSchedulingTest, WatchdogMustBeAboveTheFixedPriorityOfItsOpener) {
+TEST(WatchSchedulingTest, WatchdogMustBeAboveTheFixedPriorityOfTheOpeningThread) {
     verifies("SWR-PRT-041", Technique::kBoundaryValues, Polarity::kViolation);
     if (!has_privilege()) {
         GTEST_SKIP() << kNoPrivilege;
@@ -310,7 +310,7 @@ TEST(WatchSchedulingTest, WatchdogMustBeAboveTheFixedPriorityOfItsOpener) {
     });
 }
 
-TEST(WatchSchedulingTest, GridWatchMustBeAboveTheFixedPriorityOfItsOpener) {
+TEST(WatchSchedulingTest, GridWatchMustBeAboveTheFixedPriorityOfTheOpeningThread) {
     verifies("SWR-PRT-041", Technique::kBoundaryValues, Polarity::kViolation);
     if (!has_privilege()) {
         GTEST_SKIP() << kNoPrivilege;
@@ -340,7 +340,7 @@ TEST(WatchSchedulingTest, GridWatchMustBeAboveTheFixedPriorityOfItsOpener) {
     });
 }
 
-/// A thread of start_thread() that stores what it is once its scheduling is set.
+/// A thread of start_thread() that stores its scheduling.
 struct Started {
     Status status{Status::kError};
     ThreadRights rights{};
@@ -368,7 +368,7 @@ struct Started {
     std::atomic<bool> is_set_{false};
 };
 
-TEST(StartThreadTest, ThreadIsOrdinaryOrHasItsOwnPriorityWhateverItsMakerHas) {
+TEST(StartThreadTest, ThreadDoesNotInheritTheSchedulingOfItsCreator) {
     verifies("SWR-PRT-040", Technique::kEquivalenceClasses);
     if (!has_privilege()) {
         GTEST_SKIP() << kNoPrivilege;
@@ -384,13 +384,13 @@ TEST(StartThreadTest, ThreadIsOrdinaryOrHasItsOwnPriorityWhateverItsMakerHas) {
 
         const Started invalid{{100, 100'000}};
         EXPECT_EQ(invalid.status, Status::kOk);
-        EXPECT_EQ(invalid.seen, kOrdinary) << "a priority that Linux does not have";
+        EXPECT_EQ(invalid.seen, kOrdinary) << "invalid priority";
         EXPECT_EQ(invalid.rights.priority.system_error, EINVAL);
         EXPECT_EQ(invalid.rights.processor.system_error, EINVAL);
     });
 }
 
-/// 0: without any privilege and from SCHED_IDLE, which it may not leave, a thread was started.
+/// Exit status; 0: a thread was started without privileges and from SCHED_IDLE, which it cannot leave.
 int start_thread_from_idle() {
     const rlimit none{0U, 0U};
     if (setrlimit(RLIMIT_NICE, &none) != 0 || setrlimit(RLIMIT_RTPRIO, &none) != 0 ||
@@ -404,7 +404,7 @@ int start_thread_from_idle() {
     return is_reported && is_started && !may_leave_idle() ? 0 : 1;
 }
 
-TEST(StartThreadTest, WithoutAnyPrivilegeAThreadStartsAllTheSameAndItsDenialIsReported) {
+TEST(StartThreadTest, WithoutAnyPrivilegeAThreadStartsAndTheDenialIsReported) {
     verifies("SWR-PRT-040", Technique::kFaultInjection, Polarity::kViolation);
     const pid_t child = fork();
     if (child == 0) {

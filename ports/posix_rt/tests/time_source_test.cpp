@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the clocks behind the time line are those of Linux, and another one that is put in their place
-// decides what the time line shows and waits for. Method: Linux's clocks are read beside them; a clock made
-// by hand.
+// Goal: the time line uses the clocks of Linux by default, and a replaced clock determines its readings and
+// waits. Method: comparison with direct readings of the Linux clocks; a fake clock.
 #include "mamori/ports/posix_rt/time_source.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +23,7 @@ std::int64_t read(clockid_t clock) {
     return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
 }
 
-TEST(TimeSourceTest, TheyAreTheMonotonicClockAndTheOneThatNoDaemonAdjusts) {
+TEST(TimeSourceTest, DefaultsAreTheMonotonicAndTheRawClock) {
     verifies("SWR-PRT-030");
     const std::int64_t before = read(CLOCK_MONOTONIC);
     const std::int64_t shown = get_monotonic_clock().read_ns();
@@ -38,7 +37,7 @@ TEST(TimeSourceTest, TheyAreTheMonotonicClockAndTheOneThatNoDaemonAdjusts) {
     EXPECT_LE(raw, read(CLOCK_MONOTONIC_RAW));
 }
 
-TEST(TimeSourceTest, AnotherClockDecidesWhatTheTimeLineShowsAndWaitsFor) {
+TEST(TimeSourceTest, ReplacedClockDeterminesReadingsAndWaits) {
     verifies("SWR-PRT-030", Technique::kInterface);
     FakeClock source{5'000'000'000};
     const FrameClock clock = FrameClock::starting_in(3_ms, source);
@@ -50,7 +49,7 @@ TEST(TimeSourceTest, AnotherClockDecidesWhatTheTimeLineShowsAndWaitsFor) {
     EXPECT_EQ(source.slept_until_ns, 5'005'000'000);
     source.slept_until_ns = 0;
     clock.wait_until(Instant{0} + 1_ms);
-    EXPECT_EQ(source.slept_until_ns, 0) << "that instant is here already";
+    EXPECT_EQ(source.slept_until_ns, 0) << "the instant has been reached";
     source.monotonic_offset_ns = -7;
     const timespec at = clock.to_timespec(Instant{10});
     EXPECT_EQ(at.tv_sec, 5);

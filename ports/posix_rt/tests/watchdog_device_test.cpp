@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: a device is taken only when it protects, within the time that was asked for, and is stopped by a
-// deliberate disarm only. Method: a driver made for the test that keeps to the documentation of Linux, and
-// device files of the machine that are no watchdogs. No real watchdog is opened: it would reset the machine.
+// Goal: a device is accepted only if it protects within the requested time, and only disarm() stops it.
+// Method: a simulated driver that complies with the Linux documentation, and device files of the host that
+// are not watchdogs. No real watchdog is opened: it would reset the computer.
 #include "mamori/ports/posix_rt/watchdog_device.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ class WatchdogDeviceTest : public ::testing::Test {
   protected:
     WatchdogDeviceTest() { FakeDriver::reset(); }
 
-    /// The device is left alone, and stopped as far as its driver can be.
+    /// Checks that the device is rejected, and stopped if its driver permits it.
     void expect_refused(WatchdogDeviceError error, int system_error) {
         WatchdogDevice sut{kFakeCalls};
         EXPECT_EQ(sut.open("/dev/fake", kTimeout), Status::kError);
@@ -38,7 +38,7 @@ class WatchdogDeviceTest : public ::testing::Test {
     FakeDriver& driver_ = FakeDriver::get();
 };
 
-TEST_F(WatchdogDeviceTest, IsNotTouchedBeforeItIsAskedForAndWatchesThen) {
+TEST_F(WatchdogDeviceTest, IsOpenedOnRequestOnlyAndThenSupervises) {
     verifies("SWR-PRT-023");
     WatchdogDevice sut{kFakeCalls};
     ASSERT_EQ(driver_.opens, 0);
@@ -56,12 +56,12 @@ TEST_F(WatchdogDeviceTest, IsNotTouchedBeforeItIsAskedForAndWatchesThen) {
     EXPECT_EQ(sut.disarm(), Status::kOk);
 }
 
-TEST_F(WatchdogDeviceTest, TimeoutIsTheOneThatTheDriverGrantsAndNotALongerOne) {
+TEST_F(WatchdogDeviceTest, TimeoutIsThatOfTheDriverAndAtMostTheRequestedOne) {
     verifies("SWR-PRT-023", Technique::kBoundaryValues, Polarity::kViolation);
     for (const Duration asked : {1000_ms, 1999_ms}) {
         WatchdogDevice sut{kFakeCalls};
         ASSERT_EQ(sut.open("/dev/fake", asked), Status::kOk);
-        EXPECT_EQ(sut.get_timeout(), 1000_ms) << "whole seconds, cut off";
+        EXPECT_EQ(sut.get_timeout(), 1000_ms) << "rounded down to seconds";
         EXPECT_EQ(sut.disarm(), Status::kOk);
     }
     driver_.longest_s = 4;
@@ -73,7 +73,7 @@ TEST_F(WatchdogDeviceTest, TimeoutIsTheOneThatTheDriverGrantsAndNotALongerOne) {
     driver_.options &= ~static_cast<std::uint32_t>(WDIOF_SETTIMEOUT);
     driver_.timeout_s = 10;
     WatchdogDevice fixed{kFakeCalls};
-    ASSERT_EQ(fixed.open("/dev/fake", kTimeout), Status::kOk) << "one that cannot be set and is short enough";
+    ASSERT_EQ(fixed.open("/dev/fake", kTimeout), Status::kOk) << "fixed timeout that is short enough";
     EXPECT_EQ(fixed.disarm(), Status::kOk);
     driver_.timeout_s = 11;
     expect_refused(WatchdogDeviceError::kCannotSetTimeout, 0);
@@ -81,7 +81,7 @@ TEST_F(WatchdogDeviceTest, TimeoutIsTheOneThatTheDriverGrantsAndNotALongerOne) {
     expect_refused(WatchdogDeviceError::kCannotSetTimeout, 0);
 }
 
-TEST_F(WatchdogDeviceTest, DriverThatRefusesOrHidesItsTimeoutIsRefused) {
+TEST_F(WatchdogDeviceTest, DriverThatRejectsOrHidesItsTimeoutIsRejected) {
     verifies("SWR-PRT-023", Technique::kFaultInjection, Polarity::kViolation);
     driver_.set_error = EINVAL;
     expect_refused(WatchdogDeviceError::kCannotSetTimeout, EINVAL);
@@ -90,7 +90,7 @@ TEST_F(WatchdogDeviceTest, DriverThatRefusesOrHidesItsTimeoutIsRefused) {
     expect_refused(WatchdogDeviceError::kCannotSetTimeout, ENOTTY);
 }
 
-TEST_F(WatchdogDeviceTest, DeviceThatDoesNotProtectIsRefusedAndStopped) {
+TEST_F(WatchdogDeviceTest, DeviceThatDoesNotProtectIsRejectedAndStopped) {
     verifies("SWR-PRT-023", Technique::kEquivalenceClasses, Polarity::kViolation);
     driver_.options = WDIOF_SETTIMEOUT;
     expect_refused(WatchdogDeviceError::kStopsOnClose, 0);
@@ -98,10 +98,10 @@ TEST_F(WatchdogDeviceTest, DeviceThatDoesNotProtectIsRefusedAndStopped) {
     expect_refused(WatchdogDeviceError::kDoesNotReset, 0);
     driver_.is_watchdog = false;
     expect_refused(WatchdogDeviceError::kNotAWatchdog, ENOTTY);
-    EXPECT_EQ(driver_.other_writes, 0) << "what is no watchdog gets no byte";
+    EXPECT_EQ(driver_.other_writes, 0) << "nothing is written to other devices";
 }
 
-TEST_F(WatchdogDeviceTest, DeviceThatCannotBeOpenedIsToldWithItsCause) {
+TEST_F(WatchdogDeviceTest, DeviceThatCannotBeOpenedIsReportedWithItsCause) {
     verifies("SWR-PRT-023", Technique::kFaultInjection, Polarity::kViolation);
     driver_.open_error = EBUSY;
     expect_refused(WatchdogDeviceError::kInUse, EBUSY);
@@ -120,7 +120,7 @@ TEST_F(WatchdogDeviceTest, ParameterOutOfRangeOpensNothing) {
     EXPECT_EQ(driver_.opens, 0);
 }
 
-TEST_F(WatchdogDeviceTest, FilesOfThisMachineThatAreNoWatchdogsAreRefused) {
+TEST_F(WatchdogDeviceTest, FilesOfTheHostThatAreNotWatchdogsAreRejected) {
     verifies("SWR-PRT-023", Technique::kInterface, Polarity::kViolation);
     struct Case {
         const char* path;
@@ -140,7 +140,7 @@ TEST_F(WatchdogDeviceTest, FilesOfThisMachineThatAreNoWatchdogsAreRefused) {
     }
 }
 
-TEST_F(WatchdogDeviceTest, WhoStartedTheMachineIsTold) {
+TEST_F(WatchdogDeviceTest, ResetByTheDeviceIsReported) {
     verifies("SWR-PRT-023");
     for (const int status : {0, WDIOF_CARDRESET, WDIOF_POWERUNDER}) {
         driver_.boot_status = status;
@@ -162,11 +162,11 @@ TEST_F(WatchdogDeviceTest, DisarmStopsIt) {
     EXPECT_FALSE(driver_.is_running);
     EXPECT_FALSE(sut.is_open());
     EXPECT_EQ(sut.service(Instant{}), Status::kError);
-    EXPECT_EQ(sut.open("/dev/fake", kTimeout), Status::kOk) << "and again";
+    EXPECT_EQ(sut.open("/dev/fake", kTimeout), Status::kOk) << "it can be opened again";
     EXPECT_EQ(sut.disarm(), Status::kOk);
 }
 
-TEST_F(WatchdogDeviceTest, AnEndWithoutDisarmLeavesItRunning) {
+TEST_F(WatchdogDeviceTest, DestructionWithoutDisarmLeavesItRunning) {
     verifies("SWR-PRT-024", Technique::kFaultInjection, Polarity::kViolation);
     {
         WatchdogDevice sut{kFakeCalls};
@@ -177,7 +177,7 @@ TEST_F(WatchdogDeviceTest, AnEndWithoutDisarmLeavesItRunning) {
     EXPECT_TRUE(driver_.is_running);
 }
 
-TEST_F(WatchdogDeviceTest, DisarmThatTheDriverDoesNotTakeLeavesItOpenToBeServed) {
+TEST_F(WatchdogDeviceTest, AfterARejectedDisarmItCanStillBeServiced) {
     verifies("SWR-PRT-024", Technique::kFaultInjection, Polarity::kViolation);
     WatchdogDevice sut{kFakeCalls};
     ASSERT_EQ(sut.open("/dev/fake", kTimeout), Status::kOk);

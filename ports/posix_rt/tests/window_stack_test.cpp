@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: window threads have the stack that was asked for and lock only this, and an overflow hits the guard.
-// Method: the work of a window asks the C library for its own stack; Linux states the locked memory; a
-// process overflows on purpose, also by a frame that is larger than a page.
+// Goal: window threads have the requested stack and lock only this, and an overflow hits the guard. Method:
+// the work of a window asks the C library for its own stack; Linux reports the locked memory; a process
+// overflows its stack deliberately, also by a stack frame that is larger than a page.
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sys/mman.h>
@@ -33,7 +33,7 @@ struct Stack {
     std::size_t guard{0U};
 };
 
-/// Of the calling thread. The C library counts the guard separately.
+/// Reads the stack of the calling thread. The C library counts the guard separately.
 Stack read_stack() {
     Stack stack;
     pthread_attr_t attributes;
@@ -181,8 +181,8 @@ TEST(LockedStackTest, FiftyWindowsLockLessThanTwentyMegabytes) {
 
 Stack stack_of_window;
 
-/// 0: the access was in the guard of the window's stack.
-[[noreturn]] void tell_where(int, siginfo_t* info, void*) {
+/// Ends with status 0 if the access was in the guard of the window stack.
+[[noreturn]] void report_location(int, siginfo_t* info, void*) {
     const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
     const std::uintptr_t lowest = stack_of_window.lowest;
     ::_exit(address < lowest && address >= lowest - kThreadStackGuard ? 0 : 1);
@@ -195,12 +195,12 @@ __attribute__((noinline, no_sanitize("address"))) int use_up(volatile int depth)
     return depth < 0 ? 0 : use_up<kFrame>(depth + 1) + room[0];
 }
 
-/// Exit status of a process with a window that calls `overflow`: see tell_where().
+/// Exit status of a process with a window that calls `overflow`: see report_location().
 int overflow_in_a_window(void (*overflow)(void*), std::size_t stack_size) {
     const pid_t child = ::fork();
     if (child == 0) {
         struct sigaction action{};
-        action.sa_sigaction = &tell_where;
+        action.sa_sigaction = &report_location;
         action.sa_flags = SA_SIGINFO | SA_ONSTACK;
         static const FrameClock clock = FrameClock::starting_in(Duration{0});
         static std::array<WindowThread, 1U> threads;

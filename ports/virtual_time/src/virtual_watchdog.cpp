@@ -16,7 +16,7 @@ Status VirtualWatchdog::service(Instant now) noexcept {
 }
 
 void VirtualWatchdog::check(Instant now) noexcept {
-    // A clock that ran backwards proves nothing: the relay opens.
+    // If the clock ran backwards, the elapsed time is unknown, so the relay opens.
     if (is_started_ && safety::is_over(serviced_at_, now, timeout_)) {
         has_expired_ = true;
     }

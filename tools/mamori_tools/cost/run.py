@@ -17,7 +17,7 @@ from mamori_tools.cost.classes import InputClass
 from mamori_tools.host.callgrind import list_totals, make_step_options
 from mamori_tools.host.process import read_tail
 from mamori_tools.table.document import Table, read_table
-from mamori_tools.timing.reader import HOW_TO_MEND, RIGHTS, STEP, Array, Right, check_steps, load_json, read_right, read_rows
+from mamori_tools.timing.reader import HOW_TO_FIX, RIGHTS, STEP, Array, Right, check_steps, load_json, read_right, read_rows
 from mamori_tools.timing.run import run_program
 from mamori_tools.timing.system import System
 from mamori_trace.base.errors import InputError, WorkError
@@ -113,7 +113,7 @@ def read_cost(folder: Path, one: InputClass) -> tuple[Table, Array, Facts]:
     if table.findings:
         raise InputError(f"breaks a rule: {table.findings[0]}; ./mamori table --text shows all", folder / "table.json")
     path = folder / "run.json"
-    run = JsonNode(path, "the run", load_json(path), HOW_TO_MEND)
+    run = JsonNode(path, "the run", load_json(path), HOW_TO_FIX)
     if (schema := run.at("schema").text()) != SCHEMA:
         raise run.at("schema").complain(f"is '{schema}', this command reads '{SCHEMA}'")
     for key, wanted in (("cycles", one.cycles), ("first", one.first), ("every", one.every), ("frame_ns", table.frame_ns), ("lost_rows", 0)):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mamori_tools.timing.reader import COMPLETED, MISSED, NOT_BACK, OUTCOMES, OVERRUN, Array, Measurement
-from mamori_tools.timing.verdict import COMPONENT, OWN_PROCESS, Cause, judge_late, judge_overrun
+from mamori_tools.timing.verdict import COMPONENT, OWN_PROCESS, Cause, find_late_cause, find_overrun_cause
 
 OPENED = (COMPLETED, OVERRUN, MISSED)
 """Outcomes with a lateness; other instances had no window start."""
@@ -42,8 +42,8 @@ class Series:
 
 @dataclass(frozen=True)
 class Miss:
-    """An overrun or skipped window. `component`: the component that had not returned or not begun; empty if none ran. `verdict`: who caused
-    it (verdict.py). `by`: the thread that ran instead, or a component of another window; may be empty. `since_cycle`: cycle in which the
+    """An overrun or skipped window. `component`: the component that had not returned or not begun; empty if none ran. `verdict`: the cause
+    (verdict.py). `by`: the thread that ran instead, or a component of another window; may be empty. `since_cycle`: cycle in which the
     work began that had not returned."""
 
     cycle: int
@@ -59,7 +59,7 @@ class Miss:
 
     @property
     def is_of_code(self) -> bool:
-        """Whether the program caused it: a component or another thread."""
+        """True if the program is the cause: a component or another thread."""
         return self.verdict in (COMPONENT, OWN_PROCESS)
 
 
@@ -79,7 +79,7 @@ class Drift:
 
 @dataclass(frozen=True)
 class WindowUse:
-    """Who used the processor during the instances of a window. `cpu`: CPU time of its thread per instance whose steps all returned.
+    """Use of the processor during the instances of a window. `cpu`: CPU time of its thread per instance whose steps all returned.
     `voluntary`, `involuntary`: switches away from this thread within steps. `own_ns`, `outside_ns`: time of other threads of the program, and
     of other processes and the kernel, from planned start to end, over all instances; None without recorded switches. `longest_by`: thread with
     the longest stay in the instance with the most such time."""
@@ -202,7 +202,7 @@ def _make_window(run: Measurement, index: int) -> WindowRow:
 
 
 def _make_use(run: Measurement, index: int) -> WindowUse | None:
-    """@return nothing if the program did not record it."""
+    """@return None if the program did not record it."""
     switches = run.switches
     if switches is None:
         return None
@@ -259,8 +259,8 @@ class _StepIndex:
     long_rows: Array
 
     def list_candidates(self, first: int, row: int) -> Array:
-        """Steps of window instance `row`, and the last long step before it, since row `first`. While work hangs, nothing else of its
-        window runs."""
+        """Steps of window instance `row`, and the last long step before it, since row `first`. While work hangs, no other work
+        of its window runs."""
         begin, end = np.searchsorted(self.rows, [row, row + 1])
         long_begin, long_end = np.searchsorted(self.long_rows, [first, row])
         return np.concatenate((self.long_steps[max(long_begin, long_end - 1) : long_end], self.steps[begin:end]))
@@ -290,10 +290,10 @@ def _make_miss(run: Measurement, index: _StepIndex, row: int) -> Miss:
     release, late = int(opening["release_ns"]), int(opening["woke_ns"] - opening["release_ns"])
     cycle = release // run.table.frame_ns
     if opening["outcome"] == MISSED:
-        name, reason, cause, begun = None, "released after its planned close", judge_late(run, opening), row
+        name, reason, cause, begun = None, "started after its planned end", find_late_cause(run, opening), row
     else:
-        name, reason, begun = _find_guilty(run, index, row)
-        cause = _judge(run, index, begun)
+        name, reason, begun = _find_unfinished(run, index, row)
+        cause = _find_cause(run, index, begun)
     if cause.verdict == COMPONENT and cause.by:
         name = cause.by
     text = f"{reason}: {cause.text}" if cause.text else reason
@@ -308,9 +308,9 @@ def _calc_deadline(run: Measurement, row: int) -> int:
     return min(int(opening["woke_ns"]) + window.budget_ns, int(opening["release_ns"]) + window.length_ns)
 
 
-def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | None, str, int]:
-    """@return the component that had not returned at the deadline of an overrun (empty if none), what happened, and the window instance in
-    which the work began."""
+def _find_unfinished(run: Measurement, index: _StepIndex, row: int) -> tuple[str | None, str, int]:
+    """@return component that had not returned at the deadline of an overrun (None if all had), description, and window instance in which the
+    work began."""
     opening = run.openings[row]
     number = int(opening["window"])
     window = run.table.windows[number]
@@ -321,42 +321,42 @@ def _find_guilty(run: Measurement, index: _StepIndex, row: int) -> tuple[str | N
     if len(late):
         step = late[int(np.argmin(late["start_ns"]))]
         end, name = int(step["end_ns"]), run.table.component_name(int(step["component"]))
-        text = "never came back" if end == NOT_BACK else f"came back {(end - deadline) / 1e3:.1f} us after the deadline"
+        text = "never returned" if end == NOT_BACK else f"returned {(end - deadline) / 1e3:.1f} us after the deadline"
         if step["release_ns"] != opening["release_ns"]:
             begun = run.rows_of(number).start + int(np.searchsorted(run.openings["release_ns"][run.rows_of(number)], step["release_ns"]))
             return name, f"{text}; it began in cycle {int(step['release_ns']) // run.table.frame_ns}", begun
         given = deadline - int(opening["woke_ns"])
         if given < window.budget_ns and NOT_BACK != end <= deadline + window.budget_ns - given:
-            return name, f"{text}, which came {(window.budget_ns - given) / 1e3:.1f} us early: the window was released late", row
+            return name, f"{text}, which was {(window.budget_ns - given) / 1e3:.1f} us early: the window started late", row
         return name, text, row
     ran = index.list_components(row)
     before = steps[steps["release_ns"] < opening["release_ns"]]
     if not ran and len(before) and opening["closed_ns"] < deadline:
-        # It ended without waiting for the deadline: earlier work had not returned when the window started, or only just.
+        # The window ended before its deadline: earlier work had not returned at the window start, or had just returned.
         step = before[-1]
         begun = run.rows_of(number).start + int(np.searchsorted(run.openings["release_ns"][run.rows_of(number)], step["release_ns"]))
-        text = f"came back {(int(step['end_ns']) - int(opening['woke_ns'])) / 1e3:.1f} us after the window start"
+        text = f"returned {(int(step['end_ns']) - int(opening['woke_ns'])) / 1e3:.1f} us after the window start"
         return run.table.component_name(int(step["component"])), f"{text}; it began in cycle {int(step['release_ns']) // run.table.frame_ns}", begun
     waiting = [component for component in run.table.components_of(number) if component not in ran]
     if waiting:
-        return run.table.component_name(waiting[0]), "had not begun by the deadline: its thread did not get the processor", row
-    return None, "no step was late: the processor was taken between steps", row
+        return run.table.component_name(waiting[0]), "had not begun at the deadline: its thread did not get the processor", row
+    return None, "no step was late: other threads used the processor between steps", row
 
 
-def _judge(run: Measurement, index: _StepIndex, row: int) -> Cause:
-    """Who caused the overrun of window instance `row`, by its own steps."""
+def _find_cause(run: Measurement, index: _StepIndex, row: int) -> Cause:
+    """Determines the cause of the overrun of window instance `row` from its steps."""
     chosen = index.get_numbers(row)
     steps = run.steps[chosen]
     deadline = _calc_deadline(run, row)
     is_late = (steps["start_ns"] <= deadline) & ((steps["end_ns"] == NOT_BACK) | (steps["end_ns"] > deadline))
     uses = None if run.switches is None else run.switches.step_use[chosen]
-    return judge_overrun(run, run.openings[row], steps, uses, deadline, int(np.argmax(is_late)) if is_late.any() else None)
+    return find_overrun_cause(run, run.openings[row], steps, uses, deadline, int(np.argmax(is_late)) if is_late.any() else None)
 
 
 def list_findings(windows: list[WindowRow], components: list[ComponentRow], misses: list[Miss]) -> list[str]:
     """One line for each overrun that the code caused, each declared worst case that is too low, and each planned instant off the schedule.
 
-    Excludes what was caused outside the program.
+    Excludes losses with a cause outside the program.
     """
     findings = []
     for row in components:
@@ -381,7 +381,7 @@ def list_limit_findings(windows: list[WindowRow], misses: list[Miss], missed_max
     """Findings of --max-missed and --max-late, regardless of the cause. @param missed_max, late_ns_max: None for no limit."""
     findings = []
     if missed_max is not None and len(misses) > missed_max:
-        findings.append(f"--max-missed: {len(misses)} windows were skipped or cut short, at most {missed_max} are permitted; first in cycle "
+        findings.append(f"--max-missed: {len(misses)} windows were skipped or overran, at most {missed_max} are permitted; first in cycle "
                         f"{misses[0].cycle}, window '{misses[0].window}', verdict {misses[0].verdict}")  # fmt: skip
     for window in windows:
         if late_ns_max is not None and window.lateness is not None and window.lateness.max > late_ns_max:

@@ -26,7 +26,7 @@ SCHEMA = "mamori.timing_baseline/1"
 LIMIT_FACTOR = 1.5
 """Margin for effects that ratios do not cancel (caches, frequency steps): a median that grew by half has another cause."""
 KEYS = ("schema", "system", "table", "limit_factor", "component")
-HOW_TO_MEND = "write it anew with ./mamori timing SYSTEM --accept FILE"
+HOW_TO_FIX = "write a new one with ./mamori timing SYSTEM --accept FILE"
 
 
 @dataclass(frozen=True)
@@ -55,45 +55,45 @@ def load_baseline(path: Path, system: str) -> Baseline:
     try:
         data = tomllib.loads(read_text(path, "baseline", 1_000_000).text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"is no TOML: {error}; {HOW_TO_MEND}", path) from error
+        raise InputError(f"invalid TOML: {error}; {HOW_TO_FIX}", path) from error
     if data.get("schema") != SCHEMA:
-        raise InputError(f"has the schema '{data.get('schema')}', this command reads '{SCHEMA}'; {HOW_TO_MEND}", path)
+        raise InputError(f"unknown schema '{data.get('schema')}', expected '{SCHEMA}'; {HOW_TO_FIX}", path)
     try:
         if unknown := sorted(set(data) - set(KEYS)):
-            raise ValueError(f"it has an unknown key '{unknown[0]}'")
+            raise ValueError(f"unknown key '{unknown[0]}'")
         factor = _read_positive(data["limit_factor"], "limit_factor")
         if factor < 1.0:
             raise ValueError(f"limit_factor is {factor:g}, must be at least 1")
         ratios = tuple((str(row["name"]), _read_positive(row["ratio"], f"ratio of '{row['name']}'", least=0.0)) for row in data["component"])
         baseline = Baseline(path, str(data["system"]), str(data["table"]), factor, ratios)
     except KeyError as error:
-        raise InputError(f"is no baseline: it has no {error}; {HOW_TO_MEND}", path) from error
+        raise InputError(f"invalid baseline: key {error} is missing; {HOW_TO_FIX}", path) from error
     except (TypeError, ValueError, AttributeError) as error:
-        raise InputError(f"is no baseline: {error}; {HOW_TO_MEND}", path) from error
+        raise InputError(f"invalid baseline: {error}; {HOW_TO_FIX}", path) from error
     if baseline.system != system:
-        raise InputError(f"is the baseline of '{baseline.system}', not of '{system}'; name its own, or {HOW_TO_MEND}", path)
+        raise InputError(f"is the baseline of '{baseline.system}', not of '{system}'; specify the file of this system, or {HOW_TO_FIX}", path)
     return baseline
 
 
 def _read_positive(value: object, what: str, least: float = math.ulp(0.0)) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value) or value < least:
-        raise ValueError(f"{what} is no number in range")
+        raise ValueError(f"{what} is not a number in range")
     return float(value)
 
 
 def check_table(baseline: Baseline, table: Table) -> None:
     """@raise InputError if the baseline belongs to another table, because its figures are then not comparable."""
     if baseline.table != make_fingerprint(table):
-        raise InputError(f"was made of another table of '{baseline.system}'; {HOW_TO_MEND}", baseline.path)
+        raise InputError(f"belongs to another table of '{baseline.system}'; {HOW_TO_FIX}", baseline.path)
 
 
-def judge_ratios(baseline: Baseline, ratios: Sequence[tuple[str, float]]) -> list[str]:
+def check_ratios(baseline: Baseline, ratios: Sequence[tuple[str, float]]) -> list[str]:
     """@return one finding per component over its limit, and per component of the baseline that the run lacks."""
     findings = []
     if [name for name, _ in ratios] != [name for name, _ in baseline.ratios]:
         missing = [name for name, _ in baseline.ratios if name not in dict(ratios)]
         added = [name for name, _ in ratios if name not in dict(baseline.ratios)]
-        what = f"'{missing[0]}' was not measured" if missing else f"'{added[0]}' is not in it" if added else "the order differs"
+        what = f"'{missing[0]}' was not measured" if missing else f"'{added[0]}' is missing in the file" if added else "the order differs"
         return [f"baseline: {what}"]
     for (name, before), (_, now) in zip(baseline.ratios, ratios, strict=True):
         limit = before * baseline.limit_factor

@@ -47,7 +47,7 @@ class Chain:
 @dataclass(frozen=True)
 class ChainSet:
     chains: tuple[Chain, ...]
-    note: str = ""  # why chains are missing, or that feedback was ignored
+    note: str = ""  # reason of missing chains, or ignored feedback
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ from mamori_tools.host.plans import build_plan
 from mamori_tools.host.process import read_tail
 from mamori_tools.host.project import ROOT, Project
 from mamori_tools.host.steps import Context, Step, all_passed, run_steps
-from mamori_tools.timing.baseline import Baseline, check_table, judge_ratios, list_ratios, load_baseline, write_baseline
+from mamori_tools.timing.baseline import Baseline, check_ratios, check_table, list_ratios, load_baseline, write_baseline
 from mamori_tools.timing.environment import collect_setting, collect_state
 from mamori_tools.timing.reader import FILES, SWITCH_FILES, Measurement, read_measurement
 from mamori_tools.timing.report import NO_LIMITS, Limits, Report, make_record, make_report, write_record
@@ -106,7 +106,7 @@ def check(request: Request, jobs: int) -> Job:
     """All checks that are possible before work begins. @raise InputError."""
     project = Project(ROOT)
     if request.check is not None and request.accept is not None:
-        raise InputError("timing: --check and --accept exclude each other; check first, accept what you want to keep")
+        raise InputError("timing: --check and --accept exclude each other; use --check first, then --accept")
     system = find_system(request.system, project)
     baseline = None if request.check is None else load_baseline(request.check, system.name)
     if request.with_load:
@@ -115,7 +115,7 @@ def check(request: Request, jobs: int) -> Job:
     check_folder(folder)
     if request.accept is not None:
         if request.accept.is_dir():
-            raise InputError(f"timing: '{request.accept}' is a folder; name the file that the baseline is to be written to")
+            raise InputError(f"timing: '{request.accept}' is a folder; specify a file for the baseline")
         check_folder(request.accept.absolute().parent)
     return Job(request, system, baseline, folder, Context(system.project, jobs, Screen(to_stderr=True)))
 
@@ -127,7 +127,7 @@ def check_folder(folder: Path, command: str = "timing") -> None:
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
-        raise InputError(f"{command}: {folder}: nothing can be written there ({error.strerror}); name a folder that you may write to") from error
+        raise InputError(f"{command}: {folder}: not writable ({error.strerror}); specify a writable folder") from error
 
 
 def _prepare_folder(job: Job) -> None:
@@ -138,7 +138,7 @@ def _prepare_folder(job: Job) -> None:
         job.data.mkdir(exist_ok=True)
         job.log.write_text("", encoding="utf-8")
     except OSError as error:
-        raise InputError(f"timing: '{error.filename}' is in the way of a result: {error.strerror}; name another folder") from error
+        raise InputError(f"timing: '{error.filename}' prevents the output of a result: {error.strerror}; specify another folder") from error
 
 
 def build_system(system: System, context: Context) -> bool:
@@ -168,7 +168,7 @@ def _probe(job: Job) -> float | None:
         if ending.was_interrupted:
             raise KeyboardInterrupt
         if ending.status == PROGRAM_USAGE:
-            raise InputError(f"timing: {job.system.program.name} refuses its arguments: {_get_last_line(job.log)}")
+            raise InputError(f"timing: {job.system.program.name} rejects its arguments: {_get_last_line(job.log)}")
         if ending.reason:
             show_failure(job.context.screen, ending.reason, job.log)
             return None
@@ -182,7 +182,7 @@ def _probe(job: Job) -> float | None:
 
 def _measure(job: Job, expected_s: float) -> tuple[Ending, list[str]]:
     screen, name = job.context.screen, job.system.name
-    screen.say(f"measuring {name}: {job.request.cycles} cycles, {expected_s:.0f} s{' beside stress-ng' if job.request.with_load else ''}")
+    screen.say(f"measuring {name}: {job.request.cycles} cycles, {expected_s:.0f} s{' with stress-ng' if job.request.with_load else ''}")
     with make_load(job.request.with_load, expected_s, job.folder / "load.log") as problems, screen.show_work(f"measure {name}") as tick:
         ending = run_program(job.make_argv(job.request.cycles, job.data), job.log, expected_s,
                              lambda passed: tick(f"of {expected_s:.0f} s"))  # fmt: skip
@@ -195,26 +195,26 @@ def _conclude(job: Job, ending: Ending, problems: Sequence[str], host: dict[str,
     try:
         run = read_measurement(job.data)
         if run.cycles_asked != job.request.cycles:
-            raise InputError(f"tells of {run.cycles_asked} cycles, {job.request.cycles} were asked for", job.data / "run.json")
+            raise InputError(f"contains {run.cycles_asked} cycles, {job.request.cycles} were requested", job.data / "run.json")
     except InputError as error:
         if not ending.reason and not ending.was_stopped:
             raise
-        show_failure(job.context.screen, ending.reason or "stopped before there was anything to keep", job.log)
+        show_failure(job.context.screen, ending.reason or "stopped before there were results", job.log)
         job.context.screen.say(f"nothing to analyse: {error}")
         return EXIT_INTERRUPTED if ending.was_stopped else EXIT_FAILED
-    report = make_report(job.system.name, run, host, job.request.with_load, ending.was_stopped, [*findings, *_judge(job, run)],
+    report = make_report(job.system.name, run, host, job.request.with_load, ending.was_stopped, [*findings, *_check_baseline(job, run)],
                          job.request.limits)  # fmt: skip
     return show(job, report)
 
 
-def _judge(job: Job, run: Measurement) -> list[str]:
+def _check_baseline(job: Job, run: Measurement) -> list[str]:
     """Findings of --check."""
     if job.baseline is None:
         return []
     check_table(job.baseline, run.table)
     from mamori_tools.timing.analysis import list_components
 
-    return judge_ratios(job.baseline, list_ratios(list_components(run), run.reference_ns))
+    return check_ratios(job.baseline, list_ratios(list_components(run), run.reference_ns))
 
 
 def show(job: Job, report: Report) -> int:
@@ -239,10 +239,10 @@ def show(job: Job, report: Report) -> int:
 
 def _accept(job: Job, report: Report, path: Path) -> None:
     if report.run.is_partial or report.findings:
-        job.context.screen.say(f"not accepted: {path} is as it was, since the run was {'stopped' if report.run.is_partial else 'not clean'}")
+        job.context.screen.say(f"not accepted: {path} is unchanged, because the run {'was stopped' if report.run.is_partial else 'has findings'}")
         return
     write_baseline(path, report.system, report.run.table, list_ratios(report.components, report.run.reference_ns))
-    job.context.screen.say(f"accepted: {path} holds the ratios of this run; say in the commit why they changed")
+    job.context.screen.say(f"accepted: {path} contains the ratios of this run; state the reason of the change in the commit")
 
 
 def print_result(text: str, record: dict[str, Any] | None) -> None:
@@ -269,7 +269,7 @@ def _get_last_line(log: Path) -> str:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("system", metavar="SYSTEM",
-                        help="a folder with a timing.toml, for example examples/safe_arm or a folder of a project of yours that calls "
+                        help="a folder with a timing.toml, for example examples/safe_arm or a folder of your project that calls "
                              "find_package(mamori); or a program")  # fmt: skip
     parser.add_argument("--cycles", type=at_least_one, default=CYCLES, metavar="N", help="major frames to run (at least 1); default: %(default)s")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder for the results; default: build/host-release/evidence/timing/NAME")
@@ -277,13 +277,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--requests", action="store_true",
                         help="measure how far introspection requests from outside shift the start of each window; the program must support them")  # fmt: skip
     parser.add_argument("--check", type=Path, metavar="BASELINE",
-                        help="end with status 1 when the ratio of a component to the reference work exceeds the limit in this file")  # fmt: skip
+                        help="end with status 1 if the ratio of a component to the reference work exceeds the limit in this file")  # fmt: skip
     parser.add_argument("--accept", type=Path, metavar="BASELINE",
                         help="write the ratios of this run to this file, if there are no findings; not together with --check")  # fmt: skip
     parser.add_argument("--max-missed", type=_missed, metavar="N",
-                        help="end with status 1 when more than N windows were skipped or cut short, from any cause")  # fmt: skip
+                        help="end with status 1 if more than N windows were skipped or overran, from any cause")  # fmt: skip
     parser.add_argument("--max-late", type=_microseconds, metavar="US",
-                        help="end with status 1 when a window started more than this many microseconds late, from any cause")  # fmt: skip
+                        help="end with status 1 if a window started more than this many microseconds late, from any cause")  # fmt: skip
     parser.add_argument("--json", action="store_true", help="print the record as JSON instead of text")
     add_jobs(parser, "of the build")
 
@@ -291,7 +291,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def _missed(text: str) -> int:
     """Type of --max-missed."""
     if not (text.isascii() and text.isdecimal()) or len(text) > DIGITS_MAX:
-        raise argparse.ArgumentTypeError(f"'{text[:DIGITS_MAX]}' is not an integer from 0 on with at most {DIGITS_MAX} digits")
+        raise argparse.ArgumentTypeError(f"'{text[:DIGITS_MAX]}' is not an integer of at least 0 with at most {DIGITS_MAX} digits")
     return int(text)
 
 
@@ -300,7 +300,7 @@ def _microseconds(text: str) -> int:
     match = re.fullmatch(r"\d{1,12}(\.\d{1,3})?", text, re.ASCII)
     value = round(float(text) * 1000) if match else 0
     if value < 1:
-        raise argparse.ArgumentTypeError(f"'{text[:20]}' is no positive number of microseconds with at most three decimals")
+        raise argparse.ArgumentTypeError(f"'{text[:20]}' is not a positive number of microseconds with at most three decimals")
     return value
 
 
@@ -315,7 +315,7 @@ COMMAND = Command(
     add_arguments, run, "run a system in real time: lateness, execution times, latencies and the responsible component",
     "Runs a system in real time. Shows release lateness, execution time and end-to-end latency for each window, component and event chain, "
     "next to the values in virtual time. Shows each overrun and skipped window with its cycle and its cause (a component, another thread of "
-    "the program, or outside), and the margins of budgets. Writes timing.json, timing.txt and pictures. ARGUMENTS are passed on to the program.",
+    "the program, or outside), and the margins of budgets. Writes timing.json, timing.txt and pictures. ARGUMENTS are forwarded to the program.",
     {0: "measured", 1: "a finding (overrun, declared worst case exceeded, --requests, --check, --max-missed, --max-late, program failed)",
      4: "measured without all real-time privileges", 130: "stopped by Ctrl-C; the measurements so far are kept and marked partial"},
     usage_end="[-- ARGUMENTS]",

@@ -61,7 +61,7 @@ def find_preemption(version: str, realtime: str) -> str:
     for mode in ("PREEMPT_RT", "PREEMPT_DYNAMIC", "PREEMPT"):
         if mode in words:
             return "PREEMPT_RT" if realtime == "1" else mode
-    return "PREEMPT_RT" if realtime == "1" else "none told"
+    return "PREEMPT_RT" if realtime == "1" else "not known"
 
 
 def read_ticks(stat: str) -> Ticks:

@@ -60,7 +60,7 @@ class Estimate:
 def estimate(values: Array, cut_count: int = 0) -> Estimate:
     """@param values [ns] in order of time, one per window instance. @param cut_count instances with incomplete time."""
     if cut_count:
-        return _refuse((), f"{cut_count} openings were cut off: the longest times are not among the values")
+        return _refuse((), f"{cut_count} window instances were aborted: their times are incomplete")
     block = max(BLOCK, len(values) // BLOCKS_WANTED)
     count = len(values) // block
     if count < BLOCKS_MIN:
@@ -73,13 +73,13 @@ def estimate(values: Array, cut_count: int = 0) -> Estimate:
     tests = [check_runs(values), check_correlation(values)]
     failed = [test.text for test in tests if not test.is_passed]
     if failed:
-        return _refuse(tuple(tests), f"the openings are not independent: {'; '.join(failed)}")
+        return _refuse(tuple(tests), f"the window instances are not independent: {'; '.join(failed)}")
     fitted, held_out = maxima[::2], maxima[1::2]
     location, scale = fit_gumbel(fitted)
     tests += [check_tail(fitted), check_fit(held_out, location, scale)]
     failed = [test.text for test in tests if not test.is_passed]
     if failed:
-        return _refuse(tuple(tests), f"the tail is not that of the model: {'; '.join(failed)}")
+        return _refuse(tuple(tests), f"the tail does not fit the model: {'; '.join(failed)}")
     quantiles = {p: location - scale * math.log(-block * math.log1p(-p)) for p in PROBABILITIES}
     if (greatest := float(values.max())) > (rarest := quantiles[PROBABILITIES[-1]]):
         return _refuse(tuple(tests), f"the estimate of {rarest:.0f} ns for {PROBABILITIES[-1]:g} is below the {greatest:.0f} ns that were measured")
@@ -149,7 +149,7 @@ def fit_gumbel(maxima: Array) -> tuple[float, float]:
 
 
 def check_tail(maxima: Array) -> Test:
-    """Whether the tail is heavier than Gumbel, which would make the estimate too low. A lighter tail only makes it too high."""
+    """Checks that the tail is not heavier than Gumbel, because the estimate would then be too low. With a lighter tail, it is only too high."""
     _, l2, l3 = calc_l_moments(maxima)
     c = 2.0 / (3.0 + l3 / l2) - math.log(2.0) / math.log(3.0)
     shape = 7.8590 * c + 2.9554 * c * c  # negative: heavier than Gumbel

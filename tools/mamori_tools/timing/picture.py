@@ -59,8 +59,8 @@ class Row:
 def draw_report(report: Report, folder: Path) -> list[Path]:
     """Writes each picture as SVG and PNG, each atomically. @return their paths."""
     pictures = {
-        "release_lateness": ("Release lateness: first clock reading after the wake-up, less the planned opening", _list_lateness(report)),
-        "execution_time": ("Execution time of each component per opening", _list_execution(report)),
+        "release_lateness": ("Release lateness: first clock reading after the wake-up, minus the planned window start", _list_lateness(report)),
+        "execution_time": ("Execution time of each component per window instance", _list_execution(report)),
         "chain_latency": ("End-to-end latency: start of the first component to end of the last one", _list_latency(report)),
     }
     paths = []
@@ -93,7 +93,7 @@ def _list_execution(report: Report) -> list[Row]:
 
 
 def _list_latency(report: Report) -> list[Row]:
-    return [Row(f"{number}: {shorten(row.name, TITLE_LENGTH - 4)}", row.times.values, (Limit("virtual time, at most", row.virtual.max_ns),))
+    return [Row(f"{number}: {shorten(row.name, TITLE_LENGTH - 4)}", row.times.values, (Limit("maximum in virtual time", row.virtual.max_ns),))
             for number, row in enumerate(report.chains, start=1)]  # fmt: skip
 
 
@@ -102,7 +102,7 @@ def _make_subtitle(report: Report) -> str:
     return (f"{report.system}, {report.run.cycles_run} cycles of {format_us(report.run.table.frame_ns)} µs; kernel {setting['kernel']} "
             f"({setting['preemption']}), governor {setting['governor']}, load {report.host['before']['load_1_min']} .. "
             f"{report.host['after']['load_1_min']}, steal {100 * report.steal_share:.2f} %"
-            f"{', beside stress-ng' if report.with_load else ''}")  # fmt: skip
+            f"{', with stress-ng' if report.with_load else ''}")  # fmt: skip
 
 
 def make_figure(title: str, rows: Sequence[Row], subtitle: str, marks: Sequence[str]) -> Figure:
@@ -113,7 +113,7 @@ def make_figure(title: str, rows: Sequence[Row], subtitle: str, marks: Sequence[
     figure = Figure(figsize=(WIDTH_INCH, height))
     lines = [(title, 13, INK, "normal"), (subtitle, 8.5, INK, "normal"), *((mark, 9.5, WARN, "bold") for mark in marks)]
     if len(shown) < len(rows):
-        lines.append((f"the {len(shown)} of {len(rows)} with the greatest maximum; all are in timing.json", 8.5, INK, "normal"))
+        lines.append((f"the {len(shown)} of {len(rows)} with the highest maximum; timing.json contains all rows", 8.5, INK, "normal"))
     y = height - 0.12
     for text, size, colour, weight in lines:
         figure.text(0.5, y / height, text, ha="center", va="top", fontsize=size, color=colour, weight=weight, parse_math=False)
@@ -146,7 +146,7 @@ def _draw_histogram(axis: Any, row: Row) -> None:
     _set_time_axis(axis, low, high)
     axis.set_title(f"{make_printable(shorten(row.title, TITLE_LENGTH))}   (n = {len(row.values)})", fontsize=9.5, color=INK,
                    loc="left", parse_math=False)  # fmt: skip
-    axis.set_ylabel("openings", fontsize=8.5)
+    axis.set_ylabel("window instances", fontsize=8.5)
     axis.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axis.locator_params(axis="y", nbins=4)
 

@@ -39,7 +39,7 @@ STEP = np.dtype([("release_ns", "<i8"), ("start_ns", "<i8"), ("end_ns", "<i8"), 
 INSTANT_NS_MAX = 2**53
 """104 days: below this value, a float counts nanoseconds exactly, and a key of instant and window fits 64 bits."""
 
-HOW_TO_MEND = "measure again"
+HOW_TO_FIX = "measure again"
 Array = np.ndarray[Any, np.dtype[Any]]
 
 
@@ -83,7 +83,7 @@ class Measurement:
     """Findings that the program itself reports, for example that its system left the operating state."""
     requests: Requests | None = None
     switches: Switches | None = None
-    """Nothing for a program that was built with an earlier version."""
+    """None for a program that was built with an earlier version."""
     states: tuple[State, ...] = ()
     """States of the system; empty if it has none."""
 
@@ -112,8 +112,8 @@ def read_measurement(folder: Path) -> Measurement:
     """@raise InputError, one line with the file, for an incomplete or inconsistent run."""
     table = read_table(folder / "table.json")
     if table.findings:
-        raise InputError(f"breaks a rule: {table.findings[0]}; ./mamori table --text shows all", folder / "table.json")
-    run = JsonNode(folder / "run.json", "the run", load_json(folder / "run.json"), HOW_TO_MEND)
+        raise InputError(f"violates a rule: {table.findings[0]}; ./mamori table --text shows all", folder / "table.json")
+    run = JsonNode(folder / "run.json", "the run", load_json(folder / "run.json"), HOW_TO_FIX)
     asked, done, is_partial, reference = _read_run(run, table)
     rights = tuple(read_right(name, run.at("rights").at(name)) for name in RIGHTS)
     openings = read_rows(folder / "openings.npy", OPENING, "openings")
@@ -140,7 +140,7 @@ def _read_switches(folder: Path, node: JsonNode, order: Array, kept: Array, step
     for rows, wanted, other in ((window_use, len(order), "openings.npy"), (step_use, step_count, "steps.npy")):
         if len(rows) != wanted:
             name = "window_use.npy" if rows is window_use else "step_use.npy"
-            raise InputError(f"holds {len(rows)} rows, {other} holds {wanted}; {HOW_TO_MEND}", folder / name)
+            raise InputError(f"holds {len(rows)} rows, {other} holds {wanted}; {HOW_TO_FIX}", folder / name)
     slices = read_rows(folder / "slices.npy", SLICE, "slices")
     return read_switches(node, slices, window_use[order], step_use[kept], windows)
 
@@ -149,7 +149,7 @@ def load_json(path: Path) -> object:
     try:
         return json.loads(read_text(path, "record of the run", 1_000_000).text)
     except (ValueError, RecursionError) as error:
-        raise InputError(f"is no whole JSON document: {error}; {HOW_TO_MEND}", path) from error
+        raise InputError(f"is not a complete JSON document: {error}; {HOW_TO_FIX}", path) from error
 
 
 def _read_run(run: JsonNode, table: Table) -> tuple[int, int, bool, int]:
@@ -160,16 +160,16 @@ def _read_run(run: JsonNode, table: Table) -> tuple[int, int, bool, int]:
     cycles = run.at("cycles")
     asked, done, is_partial = cycles.at("asked").count(), cycles.at("run").count(), run.at("is_partial").truth()
     if asked < 1 or done > asked:
-        raise cycles.complain(f"says that {done} of {asked} were run")
+        raise cycles.complain(f"states that {done} of {asked} were run")
     if is_partial != (done < asked):
         raise run.at("is_partial").complain(f"is {is_partial}, but {done} of {asked} cycles were run")
     if run.at("frame_ns").whole() != table.frame_ns:
-        raise run.at("frame_ns").complain(f"is {run.at('frame_ns').whole()}, but the table's is {table.frame_ns}")
+        raise run.at("frame_ns").complain(f"is {run.at('frame_ns').whole()}, but {table.frame_ns} in the table")
     reference = run.at("reference_ns").whole()
     if reference < 1:
         raise run.at("reference_ns").complain(f"is {reference}, must be positive")
     if lost := run.at("lost_rows").count():
-        raise run.at("lost_rows").complain(f"says that {lost} rows had no room; measure fewer cycles")
+        raise run.at("lost_rows").complain(f"states that {lost} rows were lost because the memory was full; measure fewer cycles")
     return asked, done, is_partial, reference
 
 
@@ -187,7 +187,7 @@ def _read_requests(node: JsonNode, openings: Array, table: Table) -> Requests:
 def read_right(name: str, node: JsonNode) -> Right:
     right = Right(name, node.at("is_granted").truth(), node.at("errno").count())
     if right.is_granted and right.errno:
-        raise node.complain(f"is granted, with the errno {right.errno} of a refusal")
+        raise node.complain(f"is granted, but has the errno {right.errno}")
     return right
 
 
@@ -197,18 +197,18 @@ def read_rows(path: Path, kind: np.dtype[Any], what: str) -> Array:
         with path.open("rb") as file:
             version = np.lib.format.read_magic(file)
             if version != (1, 0):
-                raise InputError(f"has version {version[0]}.{version[1]} of the NumPy format, must have 1.0; {HOW_TO_MEND}", path)
+                raise InputError(f"has version {version[0]}.{version[1]} of the NumPy format, must be 1.0; {HOW_TO_FIX}", path)
             shape, is_fortran, found = np.lib.format.read_array_header_1_0(file)
             if found != kind or is_fortran or len(shape) != 1:
-                raise InputError(f"holds {len(shape)}-dimensional rows of {found}, {what} are a list of {kind}; {HOW_TO_MEND}", path)
+                raise InputError(f"holds {len(shape)}-dimensional rows of {found}, {what} are a list of {kind}; {HOW_TO_FIX}", path)
             wanted, there = shape[0] * kind.itemsize, path.stat().st_size - file.tell()
             if wanted != there:
-                raise InputError(f"should hold {shape[0]} rows in {wanted} bytes, has {there} bytes; {HOW_TO_MEND}", path)
+                raise InputError(f"should hold {shape[0]} rows in {wanted} bytes, has {there} bytes; {HOW_TO_FIX}", path)
             return np.fromfile(file, dtype=kind, count=shape[0])
     except OSError as error:
-        raise InputError(f"file of {what} cannot be read: {error.strerror}; {HOW_TO_MEND}", path) from error
+        raise InputError(f"file of {what} cannot be read: {error.strerror}; {HOW_TO_FIX}", path) from error
     except (ValueError, SyntaxError, TypeError, EOFError, MemoryError, RecursionError) as error:
-        raise InputError(f"is no NumPy file of {what}: {error}; {HOW_TO_MEND}", path) from error
+        raise InputError(f"is not a NumPy file of {what}: {error}; {HOW_TO_FIX}", path) from error
 
 
 def _refuse_first(bad: Array, rows: Array, path: Path, text: str) -> None:
@@ -216,7 +216,7 @@ def _refuse_first(bad: Array, rows: Array, path: Path, text: str) -> None:
     if bad.any():
         row = int(np.argmax(bad))
         values = ", ".join(f"{name} {rows[name][row]}" for name in rows.dtype.names or ())
-        raise InputError(f"{int(bad.sum())} of {len(rows)} rows {text}, first: {values}; {HOW_TO_MEND}", path)
+        raise InputError(f"{int(bad.sum())} of {len(rows)} rows {text}, first: {values}; {HOW_TO_FIX}", path)
 
 
 def _check_instants(rows: Array, names: tuple[str, ...], path: Path) -> None:
@@ -227,14 +227,14 @@ def _check_instants(rows: Array, names: tuple[str, ...], path: Path) -> None:
 def _check_openings(rows: Array, table: Table, path: Path) -> None:
     """Checks that each window instance is possible and occurs once. Drift from the schedule is a finding of the analysis."""
     if not len(rows):
-        raise InputError(f"has no opening at all; let the program run for a whole cycle, or {HOW_TO_MEND}", path)
-    _refuse_first(rows["window"] >= len(table.windows), rows, path, f"name a window beyond the {len(table.windows)} of the table")
-    _refuse_first(rows["outcome"] >= len(OUTCOMES), rows, path, f"have an outcome beyond the {len(OUTCOMES)} that there are")
+        raise InputError(f"has no window instances; run the program for a complete cycle, or {HOW_TO_FIX}", path)
+    _refuse_first(rows["window"] >= len(table.windows), rows, path, f"have a window index outside the table ({len(table.windows)} windows)")
+    _refuse_first(rows["outcome"] >= len(OUTCOMES), rows, path, f"have an unknown outcome (not 0 .. {len(OUTCOMES) - 1})")
     _check_instants(rows, ("release_ns", "woke_ns", "closed_ns"), path)
-    _refuse_first(rows["woke_ns"] < rows["release_ns"], rows, path, "woke before their release")
-    _refuse_first(rows["closed_ns"] < rows["woke_ns"], rows, path, "closed before they woke")
+    _refuse_first(rows["woke_ns"] < rows["release_ns"], rows, path, "have a wake-up before their release")
+    _refuse_first(rows["closed_ns"] < rows["woke_ns"], rows, path, "have an end before their wake-up")
     same = (np.diff(rows["window"].astype(np.int64)) == 0) & (np.diff(rows["release_ns"]) == 0)
-    _refuse_first(np.concatenate(([False], same)), rows, path, "are there twice")
+    _refuse_first(np.concatenate(([False], same)), rows, path, "are duplicates")
 
 
 def _check_counts(rows: Array, table: Table, cycles: int, path: Path) -> None:
@@ -243,22 +243,22 @@ def _check_counts(rows: Array, table: Table, cycles: int, path: Path) -> None:
     for window, count in zip(table.windows, counts, strict=True):
         least = (cycles - 1) * (table.frame_ns // window.period_ns)
         if count < least:
-            raise InputError(f"has {count} openings of window '{window.name}', {cycles} cycles have at least {least}; {HOW_TO_MEND}",
+            raise InputError(f"has {count} instances of window '{window.name}', {cycles} cycles have at least {least}; {HOW_TO_FIX}",
                              path)  # fmt: skip
 
 
 def check_steps(rows: Array, table: Table, path: Path, by_clock: bool = True) -> None:
     """@param by_clock release and start are on the same time line. @raise InputError for the first impossible row."""
     count = len(table.components)
-    _refuse_first(rows["component"] >= count, rows, path, f"name a component beyond the {count} of the table")
-    _refuse_first(rows["pass"] >= len(PASSES), rows, path, f"have a pass beyond the {len(PASSES)} that there are")
+    _refuse_first(rows["component"] >= count, rows, path, f"have a component index outside the table ({count} components)")
+    _refuse_first(rows["pass"] >= len(PASSES), rows, path, f"have an unknown pass (not 0 .. {len(PASSES) - 1})")
     _check_instants(rows, ("release_ns", "start_ns", "end_ns"), path)
     if by_clock:
         _refuse_first(rows["start_ns"] < rows["release_ns"], rows, path, "began before their release")
     _refuse_first((rows["end_ns"] < rows["start_ns"]) & (rows["end_ns"] != NOT_BACK), rows, path, "ended before they began")
     homeless = np.array([component.window is None for component in table.components], dtype=bool)
     if count:
-        _refuse_first(homeless[rows["component"]], rows, path, "are of a component that no window runs")
+        _refuse_first(homeless[rows["component"]], rows, path, "belong to a component without a window")
 
 
 def _match_steps(steps: Array, openings: Array, table: Table, is_partial: bool, path: Path) -> tuple[Array, Array, Array, tuple[str, ...]]:
@@ -269,7 +269,7 @@ def _match_steps(steps: Array, openings: Array, table: Table, is_partial: bool, 
     window = window_of[steps["component"]]
     span = max(int(openings["release_ns"].max()), int(steps["release_ns"].max())) + 1
     if span * (len(table.windows) + 1) >= 2**63:
-        raise InputError(f"has instants that are too far for {len(table.windows)} windows; {HOW_TO_MEND}", path)
+        raise InputError(f"has instants that are too large for {len(table.windows)} windows; {HOW_TO_FIX}", path)
     keys = openings["window"].astype(np.int64) * span + openings["release_ns"]
     wanted = window * span + steps["release_ns"]
     row = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
@@ -277,8 +277,8 @@ def _match_steps(steps: Array, openings: Array, table: Table, is_partial: bool, 
     if is_partial:
         last = np.searchsorted(keys, (window + 1) * span) - 1
         unfinished = lost & (steps["release_ns"] > openings["release_ns"][last])
-        _refuse_first(lost & ~unfinished, steps, path, "belong to no opening")
-        notes = (f"{int(lost.sum())} steps left out: the run was stopped before their window was over",) if lost.any() else ()
+        _refuse_first(lost & ~unfinished, steps, path, "belong to no window instance")
+        notes = (f"{int(lost.sum())} steps omitted: the run was stopped before the end of their window",) if lost.any() else ()
         return steps[~lost], row[~lost], ~lost, notes
-    _refuse_first(lost, steps, path, "belong to no opening")
+    _refuse_first(lost, steps, path, "belong to no window instance")
     return steps, row, ~lost, ()

@@ -91,7 +91,7 @@ class Report:
             marks.append(f"PARTIAL: stopped after {self.run.cycles_run} of {self.run.cycles_asked} cycles")
         if self.run.refused:
             refused = ", ".join(f"{right.name} ({os.strerror(right.errno)})" for right in self.run.refused)
-            marks.append(f"WITHOUT REAL-TIME RIGHTS: refused: {refused}")
+            marks.append(f"WITHOUT REAL-TIME PRIVILEGES: denied: {refused}")
         return marks
 
 
@@ -143,9 +143,7 @@ def make_record(report: Report, environment: dict[str, object]) -> dict[str, Any
         "findings": list(report.findings),
         "notes": list(report.notes),
         "windows": [asdict(row) for row in report.windows],
-        "components": [
-            {**asdict(row), "extreme_values": _make_estimate(one)} for row, one in zip(report.components, report.estimates, strict=True)
-        ],
+        "components": [{**asdict(row), "extreme_values": _make_estimate(one)} for row, one in zip(report.components, report.estimates, strict=True)],
         "ratios": ratios,
         "states": [asdict(row) for row in report.states],
         "state_components": [asdict(row) for row in report.state_components],

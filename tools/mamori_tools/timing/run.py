@@ -50,7 +50,7 @@ class Ending:
     def reason(self) -> str:
         """The error of the program; empty without one."""
         if self.was_late:
-            return f"the program did not end by itself and was stopped after {self.seconds:.0f} s"
+            return f"the program did not end and was stopped after {self.seconds:.0f} s"
         if self.was_stopped or self.status == 0:
             return ""
         if self.status < 0:
@@ -121,7 +121,7 @@ def _kill(child: subprocess.Popen[bytes]) -> None:
 def check_load() -> None:
     """@raise InputError if no tool that creates load is installed."""
     if shutil.which(LOAD_TOOL) is None:
-        raise InputError(f"timing: --load needs {LOAD_TOOL}; install the package {LOAD_TOOL}, or leave --load out")
+        raise InputError(f"timing: --load needs {LOAD_TOOL}; install the package {LOAD_TOOL}, or omit --load")
 
 
 @contextmanager

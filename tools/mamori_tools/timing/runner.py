@@ -14,7 +14,7 @@ import numpy as np
 from mamori_tools.timing.switches import CPU_NOT_KNOWN, Array, CoreLog
 
 STEAL_NS_MIN = 50_000
-"""Difference between presence on the processor and CPU time from which the host must have used it."""
+"""Minimum difference between time on the processor and CPU time that counts as use by the host."""
 STOLEN = "the hypervisor or interrupts used the processor"
 DEVICES = "the thread of the windows ran (devices, observers)"
 EXECUTIVE = "the executive ran in the window before (slowed by the host)"

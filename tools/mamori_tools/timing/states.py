@@ -93,4 +93,4 @@ def list_state_notes(run: Measurement) -> list[str]:
     """A system that was never in an operating state."""
     if not run.states or any(row.is_operating for row in list_states(run)):
         return []
-    return ["the system was in no operating state during the run"]
+    return ["the system was never in an operating state during the run"]

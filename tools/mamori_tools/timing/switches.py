@@ -62,7 +62,7 @@ class State:
 
 @dataclass(frozen=True)
 class CoreLog:
-    """Switches of the processor of one core. `errno`: why there are none, 0 if there are. `window_threads`: per window; 0 for none."""
+    """Switches of the processor of one core. `errno`: cause of missing switches, 0 if they were recorded. `window_threads`: per window; 0 for none."""
 
     errno: int
     processor: int
@@ -93,7 +93,7 @@ class CoreLog:
 @dataclass(frozen=True)
 class Switches:
     """`window_use` belongs to the rows of `Measurement.openings`, `step_use` to those of `Measurement.steps`. `continued_ns`: instants at
-    which the stopped process continued, shortly after the fact."""
+    which the stopped process continued, recorded shortly afterwards."""
 
     cores: tuple[CoreLog, ...]
     threads: Mapping[int, Thread]

@@ -47,7 +47,7 @@ def find_system(text: str, project: Project, command: str = "timing") -> System:
     if not path.is_file():
         raise InputError(f"{command}: there is no system '{text}'; {nearest_names(text, list_systems(project))}")
     if not os.access(path, os.X_OK):
-        raise InputError(f"{command}: '{text}' is no program that may be run; name a folder with a {FILE}, or an executable file")
+        raise InputError(f"{command}: '{text}' is not an executable program; specify a folder with a {FILE} or an executable file")
     return System(path.resolve().name, path.resolve(), project=project)
 
 
@@ -76,9 +76,9 @@ def _read_folder(folder: Path, shipped: Project, command: str) -> System:
         raise InputError(f"{command}: '{folder}' has no {FILE}; {nearest_names(folder.name, list_systems(shipped))}")
     project = find_project(folder, shipped, command)
     try:
-        data = tomllib.loads(read_text(file, "description of a system", 100_000).text)
+        data = tomllib.loads(read_text(file, "system description", 100_000).text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"is no TOML: {error}; correct it", file) from error
+        raise InputError(f"invalid TOML: {error}; correct it", file) from error
     for key in data:
         if key not in KEYS:
             raise InputError(f"has an unknown key '{key}'; {nearest_names(key, KEYS)}", file)
@@ -89,19 +89,19 @@ def _read_folder(folder: Path, shipped: Project, command: str) -> System:
         raise InputError("'cost' must be a table", file)
     path = (project.build / program).resolve()
     if not path.is_relative_to(project.build.resolve()):
-        raise InputError(f"'program' is '{program}', which leads out of the build folder; name a path below it", file)
+        raise InputError(f"'program' is '{program}', which is outside the build folder; specify a path below it", file)
     return System(folder.name, path, target, words, cost, file, project)
 
 
 def read_words(value: object, what: str, project: Project, file: Path) -> tuple[str, ...]:
     """Arguments of a command line, with `{root}` replaced. @raise InputError for anything else."""
     if not isinstance(value, list) or not all(isinstance(word, str) and "\0" not in word for word in value):
-        raise InputError(f"{what} must be a list of texts without NUL", file)
+        raise InputError(f"{what} must be a list of strings without NUL", file)
     return tuple(word.replace("{root}", str(project.root)) for word in value)
 
 
 def _read_text(data: dict[str, object], key: str, file: Path) -> str:
     value = data.get(key)
     if not isinstance(value, str) or not value or "\0" in value:
-        raise InputError(f"has no '{key}'; it must be a text that is not empty, without NUL", file)
+        raise InputError(f"has no '{key}'; it must be a non-empty string without NUL", file)
     return value

@@ -25,7 +25,7 @@ FINDINGS_SHOWN = 8
 
 
 def make_text(report: Report, is_whole: bool) -> str:
-    """@param is_whole all rows and reasons; otherwise the rows that fit on a screen, and a note about the rest."""
+    """@param is_whole all rows and reasons; otherwise the rows that fit on a screen, with a reference to the file."""
     parts = [_make_head(report), _make_windows(report, is_whole), _make_uses(report, is_whole), _make_components(report, is_whole),
              _make_states(report, is_whole), _make_state_components(report, is_whole),
              _make_chains(report, is_whole),
@@ -36,12 +36,12 @@ def make_text(report: Report, is_whole: bool) -> str:
 def _make_head(report: Report) -> list[str]:
     run, host = report.run, report.host
     setting, before, after = host["setting"], host["before"], host["after"]
-    rights = ", ".join(f"{one.name} {'granted' if one.is_granted else 'refused'}" for one in run.rights)
+    rights = ", ".join(f"{one.name} {'granted' if one.is_granted else 'denied'}" for one in run.rights)
     return [
         *(f"*** {mark} ***" for mark in report.marks),
         f"{report.system}: {run.cycles_run} cycles of {format_us(run.table.frame_ns)} us"
-        f"{' beside stress-ng' if report.with_load else ''}; reference work {format_us(run.reference_ns)} us; times in us",
-        f"rights: {rights}",
+        f"{' with stress-ng' if report.with_load else ''}; reference work {format_us(run.reference_ns)} us; times in us",
+        f"privileges: {rights}",
         f"host: kernel {setting['kernel']} ({setting['preemption']}), governor {setting['governor']}, clock {setting['clock_source']}, "
         f"{'virtual machine, ' if setting['virtual_machine'] else ''}load {before['load_1_min']} .. {after['load_1_min']}, "
         f"steal {100 * report.steal_share:.2f} %",
@@ -65,7 +65,7 @@ def _make_windows(report: Report, is_whole: bool) -> list[str]:
 
 
 def _make_uses(report: Report, is_whole: bool) -> list[str]:
-    """Who used the processor; empty for a program that does not record it."""
+    """Use of the processor; empty for a program that does not record it."""
     rows = []
     for one in report.windows:
         if one.use is not None:
@@ -73,14 +73,14 @@ def _make_uses(report: Report, is_whole: bool) -> list[str]:
                          format_us(one.use.own_ns), format_us(one.use.outside_ns), one.use.longest_by or "-"))  # fmt: skip
     if not rows:
         return []
-    refused = [f"processor of core {index}: its switches were refused ({os.strerror(core.errno)}); causes outside a component are not known"
+    refused = [f"processor of core {index}: access to its switches was denied ({os.strerror(core.errno)}); causes outside a component are not known"
                for index, core in enumerate(report.run.switches.cores if report.run.switches else ()) if not core.is_known]  # fmt: skip
     head = ("window", "CPU p50", "max", "waits", "preempted", "own threads", "outside", "longest by")
     return [*_cut([head, *rows], is_whole), *refused]
 
 
 def _make_components(report: Report, is_whole: bool) -> list[str]:
-    head = ("component", "window", "runs", "min", "p50", "p99", "p99.9", "max", "declared", "margin", "ratio p50", "not back")
+    head = ("component", "window", "runs", "min", "p50", "p99", "p99.9", "max", "declared", "margin", "ratio p50", "not returned")
     return _cut([head, *(_make_component(row, report.run.reference_ns) for row in report.components)], is_whole)
 
 
@@ -112,7 +112,7 @@ def _make_component(row: ComponentRow, reference_ns: int) -> tuple[str, ...]:
 def _make_chains(report: Report, is_whole: bool) -> list[str]:
     if not report.chains:
         return ["chains: none", *([report.chain_note] if report.chain_note else [])]
-    head = ("no.", "chain (opening that samples .. planned close that acts)", "virtual", "reaction max", "measured p50", "p99", "max", "broken",
+    head = ("no.", "chain (window start of the input .. planned window end of the output)", "virtual", "reaction max", "measured p50", "p99", "max", "broken",
             "over bound")  # fmt: skip
     rows = []
     chosen = report.chains if is_whole else report.chains[:CHAINS_SHOWN]
@@ -168,15 +168,15 @@ def _make_estimates(report: Report, is_whole: bool) -> list[str]:
     given = [(row.component, one) for row, one in zip(report.components, report.estimates, strict=True) if not one.refusal]
     lines = [f"extreme values: '{name}': {_format_estimate(one)}" for name, one in given]
     if refused and is_whole:
-        lines += [f"extreme values: '{name}': refused: {one.refusal}" for name, one in refused]
+        lines += [f"extreme values: '{name}': rejected: {one.refusal}" for name, one in refused]
     elif refused:
         others = f" (and for {len(refused) - 1} more: timing.txt)" if len(refused) > 1 else ""
-        lines.append(f"extreme values: refused for '{refused[0][0]}': {refused[0][1].refusal}{others}")
+        lines.append(f"extreme values: rejected for '{refused[0][0]}': {refused[0][1].refusal}{others}")
     return lines
 
 
 def _format_estimate(one: Estimate) -> str:
-    return ", ".join(f"exceeded with {p:g} per opening: {format_us(int(value))} us" for p, value in one.quantiles_ns.items())
+    return ", ".join(f"exceeded with probability {p:g} per window instance: {format_us(int(value))} us" for p, value in one.quantiles_ns.items())
 
 
 def _make_verdict(report: Report, is_whole: bool) -> list[str]:
@@ -184,7 +184,7 @@ def _make_verdict(report: Report, is_whole: bool) -> list[str]:
     if lost := report.host_misses:
         missed = sum(miss.outcome == OUTCOMES[MISSED] for miss in lost)
         unknown = sum(miss.verdict == NOT_KNOWN for miss in lost)
-        lines.append(f"lost outside the program: {missed} windows skipped and {len(lost) - missed} cut short, late by up to "
+        lines.append(f"lost outside the program: {missed} windows skipped and {len(lost) - missed} overruns, late by up to "
                      f"{format_us(max(miss.late_ns for miss in lost))} us, steal {100 * report.steal_share:.2f} % of all processor time; "
                      f"no finding of the code{f' ({unknown} of them not known)' if unknown else ''}")  # fmt: skip
     lines += [f"note: {note}" for note in report.notes]

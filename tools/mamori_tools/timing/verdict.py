@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decides who caused an overrun or a skipped window: a component, another thread of the program, or something outside it.
+"""Determines the cause of an overrun or a skipped window: a component, another thread of the program, or a cause outside the program.
 
 @satisfies SWR-TIM-044      Design: docs/design/timing.md#verdict
 """
@@ -17,13 +17,13 @@ COMPONENT, OWN_PROCESS, OUTSIDE, NOT_KNOWN = "component", "own process", "outsid
 VERDICTS = (COMPONENT, OWN_PROCESS, OUTSIDE, NOT_KNOWN)
 
 CONTINUED_WITHIN_NS = 50_000_000
-"""Latest note of a continuation after the fact: an ordinary thread takes it."""
+"""Maximum delay of the record of a continuation (SIGCONT), because an ordinary thread writes it."""
 CONTINUED_AFTER_NS = 5_000_000
-"""The same, after the wait that contained the stop."""
+"""Tolerance between the end of a wait and the record of the continuation."""
 RUNNER_DUE_NS = 500_000
-"""A runner that has not run for so long after the deadline was kept from running."""
+"""A runner that has not run for this time after the deadline was prevented from running."""
 USED_SHARE = 0.9
-"""A window that used this share of its budget itself needs no other cause."""
+"""If a window used this share of its budget itself, its component is the cause."""
 
 
 @dataclass(frozen=True)
@@ -36,8 +36,8 @@ class Cause:
 
 
 @dataclass
-class _Blame:
-    """Times [ns] by verdict and thread."""
+class _LostTimes:
+    """Lost times [ns] by verdict and thread."""
 
     sums: Counter[str] = field(default_factory=Counter)
     threads: Counter[tuple[str, str]] = field(default_factory=Counter)
@@ -77,34 +77,34 @@ class _Core:
         known = self.switches.threads.get(thread)
         return 0 if known is None else known.priority
 
-    def blame(self, blame: _Blame, begin_ns: int, end_ns: int, waiting: int, neutral: frozenset[int]) -> None:
-        """Adds who ran in the interval although the thread `waiting` wanted to run. `neutral` threads belong to the work itself."""
+    def add_lost(self, lost: _LostTimes, begin_ns: int, end_ns: int, waiting: int, neutral: frozenset[int]) -> None:
+        """Adds the threads that ran in the interval while the thread `waiting` was ready. `neutral` threads belong to the work itself."""
         covered, priority = begin_ns, self.get_priority(waiting)
         slices = self.log.between(begin_ns, end_ns)
         for number, one in enumerate(slices):
             begin, end = max(covered, int(one["begin_ns"])), min(end_ns, int(one["end_ns"]))
-            blame.add(NOT_KNOWN, "", begin - covered)
+            lost.add(NOT_KNOWN, "", begin - covered)
             covered = max(covered, end)
             thread = int(one["thread"])
             if thread in neutral or end <= begin:
                 continue
             if thread == UNKNOWN_THREAD:
-                blame.add(NOT_KNOWN, "", end - begin)
+                lost.add(NOT_KNOWN, "", end - begin)
             elif int(one["process"]) == IDLE:
-                blame.add(OUTSIDE, "the processor was idle (the host did not run the program)", end - begin)
+                lost.add(OUTSIDE, "the processor was idle (the host did not run the program)", end - begin)
             elif not self._is_own(thread):
-                blame.add(OUTSIDE, f"{self.switches.name(thread, int(one['process']))} ran", end - begin)
+                lost.add(OUTSIDE, f"{self.switches.name(thread, int(one['process']))} ran", end - begin)
             elif thread == self.log.runner:
                 for use, time in self.run.runner_times[self.index].list_uses(begin, end):
-                    blame.add(OWN_PROCESS if use == DEVICES else OUTSIDE, use, time)
+                    lost.add(OWN_PROCESS if use == DEVICES else OUTSIDE, use, time)
             elif working := self._find_component(thread, begin):
-                blame.add(COMPONENT, working, end - begin)
+                lost.add(COMPONENT, working, end - begin)
             elif self._has_less_than(priority, waiting, slices[number : number + 2]):
-                # It ran because the waiting thread did not want to run yet, or was kept from it by the host.
-                blame.add(OUTSIDE, "a thread of lower priority ran (the host did not wake the thread of the window)", end - begin)
+                # It ran because the waiting thread was not ready yet, or because the host delayed it.
+                lost.add(OUTSIDE, "a thread of lower priority ran (the host did not wake the thread of the window)", end - begin)
             else:
-                blame.add(OWN_PROCESS, f"{self.switches.name(thread, int(one['process']))} ran", end - begin)
-        blame.add(NOT_KNOWN, "", end_ns - covered)
+                lost.add(OWN_PROCESS, f"{self.switches.name(thread, int(one['process']))} ran", end - begin)
+        lost.add(NOT_KNOWN, "", end_ns - covered)
 
     def _has_less_than(self, priority: int, waiting: int, slices: Array) -> bool:
         """Whether the thread of the first slice has a lower priority. One that ended before its priority could be read has it if the waiting
@@ -120,7 +120,7 @@ class _Core:
                    if int(one["thread"]) == thread)  # fmt: skip
 
     def _find_component(self, thread: int, instant: int) -> str:
-        """@return the component of another window whose work this thread did at the instant, with the same or no fixed priority; or empty."""
+        """@return component of another window that this thread ran at the instant, for threads without fixed priority; otherwise empty."""
         if thread not in self.log.window_threads or self.get_priority(thread) > 0:
             return ""
         window = self.log.window_threads.index(thread)
@@ -134,7 +134,7 @@ class _Core:
         return known is not None and known.kind == OWN
 
     def find_stop(self, begin_ns: int, end_ns: int, deadline_ns: int) -> int | None:
-        """@return instant [ns] within this wait at which the process was stopped; nothing if it only waited: then its runner runs at the
+        """@return instant [ns] within this wait at which the process was stopped; None if it only waited: then its runner runs at the
         deadline, and no SIGCONT follows."""
         quiet = self._list_quiet(begin_ns, end_ns)
         for begin, end in quiet:
@@ -157,58 +157,58 @@ class _Core:
 
 
 def _find_core(run: Measurement, window: int) -> _Core | None:
-    """@return nothing without recorded switches."""
+    """@return None without recorded switches."""
     switches, core = run.switches, run.table.windows[window].core
     if switches is None or core >= len(switches.cores) or not switches.cores[core].is_known or not len(switches.cores[core].slices):
         return None
     return _Core(run, switches.cores[core], switches, window, core)
 
 
-def judge_late(run: Measurement, opening: Array) -> Cause:
-    """Who kept the runner from starting this window instance at its planned instant."""
+def find_late_cause(run: Measurement, opening: Array) -> Cause:
+    """Determines why the runner did not start this window instance at its planned instant."""
     release, woke = int(opening["release_ns"]), int(opening["woke_ns"])
     core = _find_core(run, int(opening["window"]))
     if core is None:
-        return _judge_late_without_log(run, release, woke)
-    blame = _Blame()
-    core.blame(blame, release, woke, core.log.runner, frozenset())
-    return blame.get_cause()
+        return _find_late_cause_without_log(run, release, woke)
+    lost = _LostTimes()
+    core.add_lost(lost, release, woke, core.log.runner, frozenset())
+    return lost.get_cause()
 
 
-def _judge_late_without_log(run: Measurement, release: int, woke: int) -> Cause:
+def _find_late_cause_without_log(run: Measurement, release: int, woke: int) -> Cause:
     if run.switches is not None and any(release <= one <= woke + CONTINUED_WITHIN_NS for one in run.switches.continued_ns):
         return Cause(OUTSIDE, "", "the process was stopped")
     return Cause(NOT_KNOWN)
 
 
-def judge_overrun(run: Measurement, opening: Array, steps: Array, uses: Array | None, deadline_ns: int, late: int | None) -> Cause:
+def find_overrun_cause(run: Measurement, opening: Array, steps: Array, uses: Array | None, deadline_ns: int, late: int | None) -> Cause:
     """@param steps of the window instance, in order of time, with their `uses`. @param late index of the step that had not returned at the
-    deadline; nothing if all had."""
+    deadline; None if all had."""
     window = int(opening["window"])
     core = _find_core(run, window)
     if core is None or core.thread == 0:
-        return _judge_without_log(run, opening, steps, uses, late)
+        return _find_cause_without_log(run, opening, steps, uses, late)
     woke, budget = int(opening["woke_ns"]), run.table.windows[window].budget_ns
     last = None if late is None else int(steps["end_ns"][late])
     end = deadline_ns if last is None else last if last != NOT_BACK else int(core.log.slices["end_ns"][-1])
-    blame = _Blame()
-    needed = _account(core, blame, woke, deadline_ns, max(deadline_ns, end), steps)
+    lost = _LostTimes()
+    needed = _account(core, lost, woke, deadline_ns, max(deadline_ns, end), steps)
     stolen = 0 if uses is None else _calc_stolen(core, steps, uses)
     if stolen >= STEAL_NS_MIN:
         needed -= stolen
-        # At most what the thread was present before the deadline: the rest came too late to cause the loss.
-        blame.add(OUTSIDE, STOLEN, min(stolen, core.calc_presence(core.thread, woke, deadline_ns)))
+        # Limited to the time of the thread on the processor before the deadline: later time cannot cause the loss.
+        lost.add(OUTSIDE, STOLEN, min(stolen, core.calc_presence(core.thread, woke, deadline_ns)))
     if needed > budget:
         return Cause(COMPONENT)
-    core.blame(blame, int(opening["release_ns"]), woke, core.log.runner, frozenset())
-    lost = sum(blame.sums.values())
-    if needed >= USED_SHARE * budget and lost < (1.0 - USED_SHARE) * budget:
+    core.add_lost(lost, int(opening["release_ns"]), woke, core.log.runner, frozenset())
+    lost_ns = sum(lost.sums.values())
+    if needed >= USED_SHARE * budget and lost_ns < (1.0 - USED_SHARE) * budget:
         return Cause(COMPONENT)
-    return blame.get_cause()
+    return lost.get_cause()
 
 
-def _account(core: _Core, blame: _Blame, woke: int, deadline: int, end: int, steps: Array) -> int:
-    """Follows the thread of the window. Adds the waits before the deadline to `blame`. @return time [ns] that the work needed until `end`:
+def _account(core: _Core, lost: _LostTimes, woke: int, deadline: int, end: int, steps: Array) -> int:
+    """Follows the thread of the window. Adds the waits before the deadline to `lost`. @return time [ns] that the work needed until `end`:
     on the processor, or waiting within a step."""
     others = frozenset({core.thread, core.log.runner})
     needed, covered, left = 0, woke, WAITING
@@ -216,12 +216,12 @@ def _account(core: _Core, blame: _Blame, woke: int, deadline: int, end: int, ste
         if int(one["thread"]) != core.thread:
             continue
         begin, stop = max(woke, int(one["begin_ns"])), min(end, int(one["end_ns"]))
-        needed += _account_gap(core, blame, covered, begin, deadline, left, steps, others) + max(0, stop - begin)
+        needed += _account_gap(core, lost, covered, begin, deadline, left, steps, others) + max(0, stop - begin)
         covered, left = max(covered, stop), int(one["left"])
-    return needed + _account_gap(core, blame, covered, end, deadline, left, steps, others)
+    return needed + _account_gap(core, lost, covered, end, deadline, left, steps, others)
 
 
-def _account_gap(core: _Core, blame: _Blame, begin: int, end: int, deadline: int, left: int, steps: Array, others: frozenset[int]) -> int:
+def _account_gap(core: _Core, lost: _LostTimes, begin: int, end: int, deadline: int, left: int, steps: Array, others: frozenset[int]) -> int:
     """@return time [ns] of a wait that the step caused itself, or of the executive."""
     if end <= begin:
         return 0
@@ -229,10 +229,10 @@ def _account_gap(core: _Core, blame: _Blame, begin: int, end: int, deadline: int
         stop = core.find_stop(begin, end, deadline)
         if stop is None:
             return end - begin
-        # What follows the stop is a wait for the processor.
-        blame.add(OUTSIDE, "the process was stopped or held", end - stop)
+        # After the stop, the thread waits for the processor.
+        lost.add(OUTSIDE, "the process was stopped or held", end - stop)
         return stop - begin
-    core.blame(blame, begin, min(end, deadline), core.thread, others)
+    core.add_lost(lost, begin, min(end, deadline), core.thread, others)
     return core.calc_presence(core.log.runner, begin, min(end, deadline))
 
 
@@ -250,8 +250,8 @@ def _calc_stolen(core: _Core, steps: Array, uses: Array) -> int:
     return stolen
 
 
-def _judge_without_log(run: Measurement, opening: Array, steps: Array, uses: Array | None, late: int | None) -> Cause:
-    """CPU time and switches of the steps show whether the step worked, waited or was preempted, but not by whom."""
+def _find_cause_without_log(run: Measurement, opening: Array, steps: Array, uses: Array | None, late: int | None) -> Cause:
+    """Uses CPU time and switches of the steps only. They show whether the step worked, waited or was preempted, but not by which thread."""
     if late is None:
         return Cause(NOT_KNOWN)
     start, end = int(steps["start_ns"][late]), int(steps["end_ns"][late])
@@ -268,5 +268,3 @@ def _judge_without_log(run: Measurement, opening: Array, steps: Array, uses: Arr
     if start - woke + needed > budget:
         return Cause(COMPONENT)
     return Cause(NOT_KNOWN, "", f"its thread waited {(end - start - int(use['cpu_ns'])) / 1e3:.1f} us for the processor")
-
-

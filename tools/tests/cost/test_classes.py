@@ -65,7 +65,7 @@ def test_example_is_in_order_and_bounded() -> None:
     (WHOLE + "first = 100\n", "'first' must be a whole number of 0 .. 99"),
     (WHOLE + "every = 0\n", "'every' must be a whole number of 1"),
     (WHOLE.replace("= 100", f"= {COUNTED_MAX + 1}"), f"would count {COUNTED_MAX + 1} cycles, at most {COUNTED_MAX}"),
-    (WHOLE + 'arguments = "--x"\n', "'arguments' of class 'still' must be a list of texts"),
+    (WHOLE + 'arguments = "--x"\n', "'arguments' of class 'still' must be a list of strings"),
     (WHOLE + CLASS, "two classes of inputs have the name 'still'"),
 ])  # fmt: skip
 @pytest.mark.verifies("SWR-TIM-031", technique="equivalence_classes", polarity="violation")

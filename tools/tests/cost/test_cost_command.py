@@ -79,9 +79,7 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Bench:
 
 
 @pytest.mark.verifies("SWR-TIM-039")
-def test_figures_and_their_origin_are_in_one_record_and_one_text(
-    bench: Bench, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_figures_and_their_origin_are_in_one_record_and_one_text(bench: Bench, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.argv", ["mamori", "cost", "arm"])
     assert bench.call() == 0
 
@@ -197,9 +195,9 @@ def test_baseline_of_another_compiler_ends_with_status_2_and_no_result(bench: Be
     (("--check", "a", "--accept", "b"), "--check and --accept exclude each other"),
     (("--check", "/absent.toml"), "/absent.toml: baseline not found"),
     (("--accept", "/"), "'/' is a folder"),
-    (("--accept", "/proc/none/b.toml"), "nothing can be written there"),
+    (("--accept", "/proc/none/b.toml"), "not writable"),
     (("--class", "still", "--accept", "b"), "--accept takes all classes of inputs"),
-    (("--out", "/proc/none"), "cost: /proc/none: nothing can be written there"),
+    (("--out", "/proc/none"), "cost: /proc/none: not writable"),
     (("--clas", "still"), "cost has no option '--clas'; nearest: --class"),
     (("--jobs", "0"), "'0' is no whole number from 1 on"),
 ])  # fmt: skip

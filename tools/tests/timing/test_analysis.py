@@ -134,7 +134,7 @@ def test_declared_worst_case_below_the_measured_maximum_is_a_finding(rows: Rows,
 
 
 @pytest.mark.verifies("SWR-TIM-014", technique="boundary_values", polarity="violation")
-@pytest.mark.parametrize(("end", "guilty", "said"), [(211, "first", "came back 1.0 us after the deadline"), (None, "first", "never came back")])
+@pytest.mark.parametrize(("end", "guilty", "said"), [(211, "first", "returned 1.0 us after the deadline"), (None, "first", "never returned")])
 def test_component_that_is_not_back_at_the_deadline_is_guilty(rows: Rows, tmp_path: Path, end: int | None, guilty: str, said: str) -> None:
     rows.openings[2] = [10, 211, OVERRUN]
     rows.steps[2] = [(2, 0, 0, 12, end)]
@@ -146,7 +146,7 @@ def test_component_that_is_not_back_at_the_deadline_is_guilty(rows: Rows, tmp_pa
     assert (misses[0].cycle, misses[0].window, misses[0].outcome, misses[0].component, misses[0].late_ns) == (3, "work", "overrun", guilty, 10 * US)
     assert misses[0].reason == said
     if end is None:  # the work still hangs; the next window instance states the start of the hang
-        assert (misses[1].cycle, misses[1].component, misses[1].reason) == (4, "first", "never came back; it began in cycle 3")
+        assert (misses[1].cycle, misses[1].component, misses[1].reason) == (4, "first", "never returned; it began in cycle 3")
 
 
 @pytest.mark.verifies("SWR-TIM-014", technique="boundary_values")
@@ -168,7 +168,7 @@ def test_deadline_of_a_late_window_is_its_planned_close(rows: Rows, tmp_path: Pa
     miss = list_misses(run)[0]
 
     assert (miss.component, miss.verdict) == ("second", verdict)
-    assert ("which came 150.0 us early: the window was released late" in miss.reason) == (verdict == NOT_KNOWN)
+    assert ("which was 150.0 us early: the window started late" in miss.reason) == (verdict == NOT_KNOWN)
     assert bool(list_findings(list_windows(run), [], [miss])) == (verdict == COMPONENT)
 
 
@@ -180,7 +180,7 @@ def test_component_that_had_not_begun_is_named_when_no_step_was_late(rows: Rows,
     miss = list_misses(rows.read(tmp_path))[0]
 
     assert miss.verdict == NOT_KNOWN
-    assert (miss.component, miss.reason) == ("second", "had not begun by the deadline: its thread did not get the processor")
+    assert (miss.component, miss.reason) == ("second", "had not begun at the deadline: its thread did not get the processor")
 
 
 @pytest.mark.verifies("SWR-TIM-014", technique="error_guessing")
@@ -212,7 +212,7 @@ def test_overrun_is_a_finding_with_cycle_and_component(rows: Rows, tmp_path: Pat
     run = rows.read(tmp_path)
     found = list_findings(list_windows(run), list_components(run), list_misses(run))
 
-    assert found == ["window 'work': 1 overran, first in cycle 3 by 'second', which came back 50.0 us after the deadline"]
+    assert found == ["window 'work': 1 overran, first in cycle 3 by 'second', which returned 50.0 us after the deadline"]
 
 
 def read_drifting(folder: Path, planned_ns: int = 0, late_ns: int = 0, count: int = 1000, missing: int | None = None) -> Measurement:

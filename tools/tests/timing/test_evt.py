@@ -48,7 +48,7 @@ def test_dependent_series_is_refused_with_the_statistic() -> None:
     found = estimate(noise[1:] + noise[:-1])
 
     assert found.quantiles_ns == {}
-    assert found.refusal.startswith("the openings are not independent: runs test: z = -")
+    assert found.refusal.startswith("the window instances are not independent: runs test: z = -")
     assert "Ljung-Box over 20 lags: Q = " in found.refusal
 
 
@@ -62,7 +62,7 @@ def test_series_with_a_trend_or_a_period_is_refused() -> None:
 def test_heavy_tail_is_refused_with_the_statistic() -> None:
     found = estimate((1000.0 * np.random.default_rng(5).pareto(1.5, N) + 1000.0).astype(np.int64))
 
-    assert "the tail is not that of the model: tail heavier than Gumbel's: z = " in found.refusal
+    assert "the tail does not fit the model: tail heavier than Gumbel's: z = " in found.refusal
 
 
 @pytest.mark.verifies("SWR-TIM-018", technique="boundary_values", polarity="violation")
@@ -116,7 +116,7 @@ def test_single_tests_fail_where_they_should() -> None:
 
 @pytest.mark.verifies("SWR-TIM-018", technique="boundary_values", polarity="violation")
 def test_openings_that_were_cut_off_are_the_longest_and_forbid_an_estimate() -> None:
-    assert estimate(draw(), 1).refusal.startswith("1 openings were cut off")
+    assert estimate(draw(), 1).refusal.startswith("1 window instances were aborted")
 
 
 @pytest.mark.verifies("SWR-TIM-018", technique="error_guessing", polarity="violation")

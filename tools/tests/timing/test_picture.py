@@ -38,7 +38,7 @@ def test_each_picture_is_written_twice_with_marks_limits_and_units(report: Repor
     assert names == [f"{name}{suffix}" for name in ("release_lateness", "execution_time", "chain_latency", "over_time") for suffix in (".svg", ".png")]
     svg = (tmp_path / "execution_time.svg").read_text(encoding="utf-8")
     texts = re.findall(r"<!-- (.*?) -->", svg)
-    for wanted in ("PARTIAL: stopped after 50 of 80 cycles", "WITHOUT REAL-TIME RIGHTS: refused: priority (Operation not permitted)",
+    for wanted in ("PARTIAL: stopped after 50 of 80 cycles", "WITHOUT REAL-TIME PRIVILEGES: denied: priority (Operation not permitted)",
                    "declared worst case 40 µs", "budget of its window 250 µs", "µs"):  # fmt: skip
         assert wanted in texts
     assert not list(tmp_path.glob(".*part*"))
@@ -94,8 +94,8 @@ def test_tail_of_many_values_keeps_all_of_its_end_and_stays_small() -> None:
 def test_screen_and_file_tell_marks_findings_and_figures(report: Report) -> None:
     for is_whole in (False, True):
         said = make_text(report, is_whole)
-        assert said.startswith("*** PARTIAL: stopped after 50 of 80 cycles ***\n*** WITHOUT REAL-TIME RIGHTS")
-        assert "beside stress-ng" in said and "rights: priority refused, processor granted" in said
+        assert said.startswith("*** PARTIAL: stopped after 50 of 80 cycles ***\n*** WITHOUT REAL-TIME PRIVILEGES")
+        assert "with stress-ng" in said and "privileges: priority denied, processor granted" in said
         assert "reader > monitor > controller > drive" in said
         assert said.endswith("finding: it broke\nfindings: 1\n")
     assert len(make_text(report, is_whole=False).splitlines()) <= 40

@@ -99,14 +99,14 @@ def test_damaged_file_is_answered_with_its_name(tmp_path: Path, name: str, damag
 @pytest.mark.parametrize(
     ("change", "said"),
     [({"schema": "mamori.timing_run/2"}, "this command reads 'mamori.timing_run/1'"),
-     ({"cycles": {"asked": 20, "run": 21}}, "says that 21 of 20 were run"),
-     ({"cycles": {"asked": 0, "run": 0}}, "says that 0 of 0 were run"),
+     ({"cycles": {"asked": 20, "run": 21}}, "states that 21 of 20 were run"),
+     ({"cycles": {"asked": 0, "run": 0}}, "states that 0 of 0 were run"),
      ({"cycles": {"asked": 20}}, "has no 'run'"),
      ({"is_partial": True}, "20 of 20 cycles were run"),
      ({"is_partial": 1}, "must be true or false"),
-     ({"frame_ns": 999_999}, "but the table's is 1000000"),
+     ({"frame_ns": 999_999}, "but 1000000 in the table"),
      ({"reference_ns": 0}, "must be positive"),
-     ({"lost_rows": 2}, "2 rows had no room; measure fewer cycles"),
+     ({"lost_rows": 2}, "2 rows were lost because the memory was full; measure fewer cycles"),
      ({"notes": [1]}, "must be a text"),
      ({"findings": "none"}, "must be a list"),
      ({"rights": {}}, "has no 'priority'"),
@@ -146,14 +146,14 @@ def test_granted_right_with_an_error_number_is_refused(tmp_path: Path) -> None:
     rights = make_run(make_table(), 20, 20)["rights"]
     rights["memory"]["errno"] = 12
 
-    assert "with the errno 12" in refuse(write(tmp_path, rights=rights))
+    assert "but has the errno 12" in refuse(write(tmp_path, rights=rights))
 
 
 @pytest.mark.verifies("SWR-TIM-011", technique="boundary_values", polarity="violation")
 @pytest.mark.parametrize(
     ("column", "value", "said"),
-    [("window", 3, "beyond the 3 of the table"), ("outcome", 5, "beyond the 5 that there are"), ("release_ns", -2, "out of range"),
-     ("closed_ns", 2**53, "out of range"), ("woke_ns", 1000, "woke before their release"), ("closed_ns", 1000, "closed before")],
+    [("window", 3, "outside the table (3 windows)"), ("outcome", 5, "unknown outcome (not 0 .. 4)"), ("release_ns", -2, "out of range"),
+     ("closed_ns", 2**53, "out of range"), ("woke_ns", 1000, "have a wake-up before their release"), ("closed_ns", 1000, "end before their wake-up")],
 )  # fmt: skip
 def test_wrong_opening_is_refused_and_shown(tmp_path: Path, column: str, value: int, said: str) -> None:
     change_rows(write(tmp_path), "openings.npy", set_cell(column, value))
@@ -165,8 +165,8 @@ def test_wrong_opening_is_refused_and_shown(tmp_path: Path, column: str, value: 
 @pytest.mark.verifies("SWR-TIM-011", technique="boundary_values", polarity="violation")
 @pytest.mark.parametrize(
     ("column", "value", "said"),
-    [("component", 4, "beyond the 4 of the table"), ("pass", 3, "beyond the 3 that there are"), ("start_ns", 2**53, "out of range"),
-     ("start_ns", 5, "began before"), ("end_ns", 5, "ended before"), ("release_ns", 7, "belong to no opening")],
+    [("component", 4, "outside the table (4 components)"), ("pass", 3, "unknown pass (not 0 .. 2)"), ("start_ns", 2**53, "out of range"),
+     ("start_ns", 5, "began before"), ("end_ns", 5, "ended before"), ("release_ns", 7, "belong to no window instance")],
 )  # fmt: skip
 def test_wrong_step_is_refused_and_shown(tmp_path: Path, column: str, value: int, said: str) -> None:
     change_rows(write(tmp_path), "steps.npy", set_cell(column, value))
@@ -187,8 +187,8 @@ def test_greatest_values_that_are_allowed_are_read(tmp_path: Path) -> None:
 @pytest.mark.verifies("SWR-TIM-011", technique="error_guessing", polarity="violation")
 @pytest.mark.parametrize(
     ("change", "said"),
-    [(lambda rows: rows[:0], "has no opening at all"), (lambda rows: np.concatenate((rows, rows[4:5])), "are there twice"),
-     (lambda rows: np.delete(rows, 30), "belong to no opening"), (lambda rows: rows[rows["window"] != 1], "has 0 openings of window 'control'"),
+    [(lambda rows: rows[:0], "has no window instances"), (lambda rows: np.concatenate((rows, rows[4:5])), "are duplicates"),
+     (lambda rows: np.delete(rows, 30), "belong to no window instance"), (lambda rows: rows[rows["window"] != 1], "has 0 instances of window 'control'"),
      (lambda rows: rows.reshape(2, -1), "2-dimensional"), (lambda rows: rows["release_ns"].copy(), "openings are a list of")],
 )  # fmt: skip
 def test_list_of_openings_with_gaps_or_of_another_form_is_refused(tmp_path: Path, change: Callable[[Any], Any], said: str) -> None:
@@ -218,7 +218,7 @@ def test_table_that_breaks_a_rule_is_refused(tmp_path: Path) -> None:
     table["findings"] = ["window 'sense': too long"]
     (write(tmp_path) / "table.json").write_text(json.dumps(table), encoding="utf-8")
 
-    assert "breaks a rule: window 'sense': too long" in refuse(tmp_path)
+    assert "violates a rule: window 'sense': too long" in refuse(tmp_path)
 
 
 @pytest.mark.verifies("SWR-TIM-010", technique="error_guessing")
@@ -231,4 +231,4 @@ def test_steps_of_a_window_that_a_stop_cut_off_are_left_out_with_a_note(tmp_path
     run = read_measurement(tmp_path)
 
     assert len(run.steps) == 79
-    assert run.notes == ("1 steps left out: the run was stopped before their window was over",)
+    assert run.notes == ("1 steps omitted: the run was stopped before the end of their window",)

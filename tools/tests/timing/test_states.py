@@ -101,7 +101,7 @@ def test_run_that_left_its_operating_state_is_not_accepted(tmp_path: Path, monke
 
 @pytest.mark.verifies("SWR-TIM-046", technique="equivalence_classes")
 def test_system_that_never_operated_is_noted(tmp_path: Path) -> None:
-    assert list_state_notes(read(tmp_path / "never", [STARTING, STARTING])) == ["the system was in no operating state during the run"]
+    assert list_state_notes(read(tmp_path / "never", [STARTING, STARTING])) == ["the system was never in an operating state during the run"]
     assert list_state_notes(read(tmp_path / "once", [STARTING, MOVING])) == []
     assert list_state_notes(read(tmp_path / "none", [NO_STATE, NO_STATE], [])) == []
     assert list_states(read(tmp_path / "none", [NO_STATE, NO_STATE], [])) == []

@@ -74,7 +74,7 @@ def test_skipped_window_is_caused_by_who_held_the_runner_longest(tmp_path: Path,
     miss = judge(tmp_path, LATE, None, slices)
 
     assert (miss.verdict, miss.component) == (verdict, None)
-    assert said in miss.reason and miss.reason.startswith("released after its planned close")
+    assert said in miss.reason and miss.reason.startswith("started after its planned end")
 
 
 @pytest.mark.verifies("SWR-TIM-044", technique="boundary_values", polarity="violation")
@@ -191,7 +191,7 @@ def test_only_the_program_itself_causes_findings(tmp_path: Path) -> None:
     other = read(tmp_path / "other", LATE, None, [(-50, 300, OTHER, PREEMPTED), (300, 320, RUNNER, WAITS)])
 
     assert list_findings(list_windows(own), [], list_misses(own)) == [
-        "window 'work': 1 lost to other threads of the program, first in cycle 2: released after its planned close: "
+        "window 'work': 1 lost to other threads of the program, first in cycle 2: started after its planned end: "
         "thread 31 of the program ('burner') ran for 300.0 us"]  # fmt: skip
     assert list_findings(list_windows(other), [], list_misses(other)) == []
 

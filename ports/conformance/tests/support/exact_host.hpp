@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host in simulated time that keeps the contract, or breaks it in one chosen way.
+// A host in simulated time that complies with the contract or has one selected defect.
 #ifndef MAMORI_PORTS_CONFORMANCE_TESTS_SUPPORT_EXACT_HOST_HPP
 #define MAMORI_PORTS_CONFORMANCE_TESTS_SUPPORT_EXACT_HOST_HPP
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clock of the port that docs/manual/porting.md puts under the rules.
+// The example clock of docs/manual/porting.md.
 #ifndef MAMORI_PORTS_CONFORMANCE_TESTS_SUPPORT_MY_CLOCK_HPP
 #define MAMORI_PORTS_CONFORMANCE_TESTS_SUPPORT_MY_CLOCK_HPP
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host by the clock with a thread for each piece of work, that keeps the contract or breaks it in one way:
-// the flaws that need work which is really out.
+// A real-time host with a thread for each piece of work. It complies with the contract or has one defect that
+// requires work on another thread.
 #ifndef MAMORI_PORTS_CONFORMANCE_TESTS_SUPPORT_THREAD_HOST_HPP
 #define MAMORI_PORTS_CONFORMANCE_TESTS_SUPPORT_THREAD_HOST_HPP
 
@@ -39,7 +39,7 @@ class ThreadHost final : public WindowHost {
     std::size_t run_within(const Work& work, Instant deadline) noexcept override {
         Window& window = windows_[work.window];
         if (!window.is_done) {
-            return 0U;  // only where it was said to be done before
+            return 0U;  // only if the end was reported before
         }
         join(window);
         window.is_done = false;
@@ -92,7 +92,7 @@ class ThreadHost final : public WindowHost {
 class ThreadHostRig final : public HostRig {
   public:
     explicit ThreadHostRig(ThreadFlaw flaw) : host_(flaw) {}
-    /// A host that lies about what is out is left with threads that hang.
+    /// A host with a false report of an end still has hanging threads.
     ~ThreadHostRig() override {
         for (std::atomic<bool>& is_released : is_released_) {
             is_released = true;

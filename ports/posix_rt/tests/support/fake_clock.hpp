@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A clock that stands still until a test moves it, and one that lets a test hold up whoever waits by it.
+/// A clock that is stopped until a test advances it, and a clock whose waits a test can block.
 #ifndef MAMORI_PORTS_POSIX_RT_TESTS_FAKE_CLOCK_HPP
 #define MAMORI_PORTS_POSIX_RT_TESTS_FAKE_CLOCK_HPP
 
@@ -24,8 +24,8 @@ class FakeClock final : public TimeSource {
     mutable std::int64_t slept_until_ns{0};
 };
 
-/// Linux's clock whose timers may fail: while `is_stuck`, no sleep ends and no deadline of a system call
-/// comes.
+/// The Linux clock with timers that can fail: while `is_stuck`, no sleep and no deadline of a system call
+/// ends.
 class StuckClock final : public TimeSource {
   public:
     std::int64_t read_ns() const noexcept override { return get_monotonic_clock().read_ns(); }

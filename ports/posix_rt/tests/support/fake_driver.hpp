@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A watchdog driver of Linux that answers as the documentation of the kernel says and resets nothing. One
-/// per process, since system calls know of no object.
+/// A simulated Linux watchdog driver. It behaves as the kernel documentation specifies but resets nothing.
+/// One per process, since system calls have no object parameter.
 #ifndef MAMORI_PORTS_POSIX_RT_FAKE_DRIVER_HPP
 #define MAMORI_PORTS_POSIX_RT_FAKE_DRIVER_HPP
 
@@ -16,19 +16,19 @@
 namespace mamori::ports::posix_rt {
 
 struct FakeDriver {
-    // What it is.
+    // Properties.
     std::uint32_t options{WDIOF_SETTIMEOUT | WDIOF_MAGICCLOSE | WDIOF_KEEPALIVEPING};
     bool is_watchdog{true};
     bool can_stop{true};  ///< false: built with CONFIG_WATCHDOG_NOWAYOUT
-    int longest_s{60};    ///< it grants at most this much
+    int longest_s{60};    ///< maximum timeout [s]
     int boot_status{0};
-    // What it refuses, as an errno; 0: nothing.
+    // Injected failures (errno); 0: none.
     int open_error{0};
     int set_error{0};
     int get_error{0};
     int left_error{0};
     std::atomic<int> write_error{0};
-    // What became of it.
+    // Observed calls.
     std::atomic<int> services{0};
     int opens{0};
     int other_writes{0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A pipe from a process of less trust to its test, which shows when no process has it any longer.
+/// A pipe from an untrusted process to its test. It ends when no process holds its writing end.
 #ifndef MAMORI_PORTS_POSIX_RT_TESTS_LINE_HPP
 #define MAMORI_PORTS_POSIX_RT_TESTS_LINE_HPP
 
@@ -16,10 +16,10 @@
 
 namespace mamori::ports::posix_rt {
 
-/// Longer than any of this takes on a machine that is busy.
+/// Longer than each of these actions takes on a busy host.
 constexpr int kPatience_ms = 20'000;
 
-/// A pipe whose writing end a partition gets.
+/// A pipe. The partition gets its writing end.
 class Line final {
   public:
     Line() { EXPECT_EQ(::pipe2(ends_.data(), O_CLOEXEC), 0); }
@@ -36,7 +36,7 @@ class Line final {
         }
         ends_[1U] = -1;
     }
-    /// All until nobody has the other end any more. Fails when somebody keeps it.
+    /// Reads until no process holds the writing end. Fails after kPatience_ms.
     std::string read_all() {
         close_writing_end();
         std::string text;
@@ -44,7 +44,7 @@ class Line final {
         for (;;) {
             pollfd watch{ends_[0U], POLLIN, 0};
             if (::poll(&watch, 1U, kPatience_ms) != 1) {
-                ADD_FAILURE() << "somebody has kept the pipe";
+                ADD_FAILURE() << "a process still holds the pipe";
                 return text;
             }
             const ssize_t length = ::read(ends_[0U], part.data(), part.size());
@@ -54,7 +54,7 @@ class Line final {
             text.append(part.data(), static_cast<std::size_t>(length));
         }
     }
-    /// The next character.
+    /// Reads the next character.
     char read_one() {
         char character = '\0';
         EXPECT_EQ(::read(ends_[0U], &character, 1U), 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Options of a machine with long limits: only what a test causes on purpose is found.
+/// Options of a machine with long limits, so that only faults that a test injects are found.
 #ifndef MAMORI_PORTS_POSIX_RT_TESTS_PATIENT_OPTIONS_HPP
 #define MAMORI_PORTS_POSIX_RT_TESTS_PATIENT_OPTIONS_HPP
 

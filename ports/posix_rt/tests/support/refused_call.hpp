@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Lets a system call fail as on an older or exhausted system (seccomp), in a process that ends with the
-/// test.
+/// Lets a system call fail as on an older or exhausted system (seccomp), in a child process of the test.
 #ifndef MAMORI_PORTS_POSIX_RT_TESTS_REFUSED_CALL_HPP
 #define MAMORI_PORTS_POSIX_RT_TESTS_REFUSED_CALL_HPP
 
@@ -19,8 +18,8 @@
 
 namespace mamori::ports::posix_rt {
 
-/// From now on, `call` fails with `error` in this process and its children; with `with_flags_only`, only when
-/// its fourth argument is not 0. @return false: this system cannot do that.
+/// From now on, `call` fails with `error` in this process and its children; with `with_flags_only`, only if
+/// its fourth argument is not 0. @return false: not supported on this system.
 inline bool refuse_call(std::uint32_t call, std::uint32_t error, bool with_flags_only) {
     constexpr auto kNumber = static_cast<std::uint32_t>(offsetof(seccomp_data, nr));
     constexpr auto kFlags =
@@ -39,8 +38,7 @@ inline bool refuse_call(std::uint32_t call, std::uint32_t error, bool with_flags
            ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-/// @return exit status of a process that does `act`: 0 without a failed expectation; -1 when a signal ended
-/// it.
+/// @return exit status of a process that runs `act`: 0 without a failed expectation; -1 if a signal ended it.
 inline int run_in_process(const std::function<void()>& act) {
     const pid_t child = ::fork();
     if (child == 0) {

@@ -45,11 +45,11 @@ std::string describe_window(const Finding& finding, const SystemView& view) {
         case Rule::kTriggerUsedTwice:
             return "its trigger releases window " + quote(get_window_name(view, finding.other)) + " too";
         case Rule::kPeriodNotInFrame:
-            return "its period of " + format(row.period) + " does not divide the frame of " +
+            return "its period of " + format(row.period) + " does not divide the major frame of " +
                    format(view.frame);
         case Rule::kWindowOutsideFrame:
-            return "it opens at " + format(row.offset) + " for " + format(row.length) +
-                   " and does not lie inside its period of " + format(row.period);
+            return "it starts at " + format(row.offset) + " for " + format(row.length) +
+                   " and is not inside its period of " + format(row.period);
         case Rule::kWindowsOverlap:
             return "it overlaps window " + quote(get_window_name(view, finding.other)) + " on core " +
                    std::to_string(row.core);
@@ -60,10 +60,10 @@ std::string describe_window(const Finding& finding, const SystemView& view) {
             return "the worst cases of its components are longer than its budget of " + format(row.budget) +
                    ": " + describe_worst_cases(view, row);
         case Rule::kRateNotOccurrences:
-            return "its rate of " + format_rate(row.rate_hz) + " is not that of its openings, every " +
+            return "its rate of " + format_rate(row.rate_hz) + " does not match its window starts, every " +
                    format(row.period);
         case Rule::kRateNotReachable:
-            return "a slower period is no whole multiple of its period of " + format(row.period) + ": " +
+            return "a slower period is not a multiple of its period of " + format(row.period) + ": " +
                    describe_alternatives(row);
         default:
             return {};
@@ -114,10 +114,9 @@ std::string describe_wiring(const Finding& finding, const SystemView& view) {
             return connection + ": one end belongs to no component that a window runs";
         case Rule::kInputNotConnected:
             return "input " + quote(get_input_name(view, finding.element)) +
-                   " is mandatory and nothing feeds it";
+                   " is mandatory and has no connection";
         case Rule::kInputHasTwoWriters:
-            return "input " + quote(get_input_name(view, finding.element)) +
-                   " is fed by more than one connection";
+            return "input " + quote(get_input_name(view, finding.element)) + " has more than one connection";
         case Rule::kAgeLimitNotPositive:
             return connection + (row.age_max == Duration{0}
                                      ? ": its age limit is not stated"
@@ -127,15 +126,15 @@ std::string describe_wiring(const Finding& finding, const SystemView& view) {
                    " when its reader starts";
         case Rule::kDelayNotStated:
             return connection + (row.is_delayed_by_a_frame ? " states a delay that it does not have"
-                                                           : " is delayed and does not state it");
+                                                           : " is delayed but does not state the delay");
         case Rule::kCrossingWithoutBuffer:
             return connection + " leaves its core or partition without a Crossing or a queue";
         case Rule::kCrossingUsedTwice:
             return connection + " uses the Crossing of " + quote(get_connection_name(view, finding.other));
         case Rule::kCrossingNotOrdered:
             return connection + ": window " + quote(get_window_name(view, row.sink_window)) +
-                   " may open while window " + quote(get_window_name(view, row.source_window)) +
-                   " on another core is open";
+                   " can start while window " + quote(get_window_name(view, row.source_window)) +
+                   " on another core runs";
         case Rule::kMarginNotKept:
             return connection + ": window " + quote(get_window_name(view, row.sink_window)) +
                    " may start within the publication margin of " + format(view.publication_margin) +
@@ -159,7 +158,7 @@ std::string describe_reactions(const Finding& finding, const SystemView& view) {
         case Rule::kReactionWithoutTime:
             return reaction + " has " + format(get_row(view.reactions, finding.element).within);
         case Rule::kReactionToUnknownFault:
-            return reaction + " answers a fault that is not declared";
+            return reaction + " is for a fault that is not declared";
         default:
             return {};
     }
@@ -171,7 +170,7 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kNone:
             break;
         case Rule::kFrameNotPositive:
-            return "the frame of " + format(view.frame) + " is not positive";
+            return "the major frame of " + format(view.frame) + " is not positive";
         case Rule::kWindowRowInvalid:
         case Rule::kWindowNamedTwice:
         case Rule::kTriggerUsedTwice:

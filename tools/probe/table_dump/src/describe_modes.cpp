@@ -22,13 +22,13 @@ std::string describe_set(const Finding& finding, const SystemView& view) {
             return set + ": assignment " + std::to_string(finding.other) + " repeats a parameter";
         case ConfigurationRule::kParameterRowInvalid:
         case ConfigurationRule::kSetRowInvalid:
-            return set + " cannot be judged: a row of the configuration is invalid";
+            return set + " cannot be checked: a row of the configuration is invalid";
         case ConfigurationRule::kValueOutsideConstraint:
         case ConfigurationRule::kNone:
             break;
     }
     return set + ": the value of assignment " + std::to_string(finding.other) +
-           " is not one that its parameter may have";
+           " is not permitted for its parameter";
 }
 
 /// `'idle' -> 'work'`, in the spelling of the transition.
@@ -86,7 +86,7 @@ std::string describe_modes(const Finding& finding, const SystemView& view) {
             return "component " + quote(get_component_name(view, finding.element)) + " runs in no mode";
         case Rule::kInputNotFedInMode:
             return "input " + quote(get_input_name(view, finding.element)) +
-                   " is mandatory and nothing feeds it in mode " + quote(get_mode_name(view, finding.other));
+                   " is mandatory and has no connection in mode " + quote(get_mode_name(view, finding.other));
         case Rule::kConnectionOfUnknownMode: {
             const ConnectionModeRow row = get_row(view.modes.connection_modes, finding.element);
             return "connection " + quote(get_connection_name(view, row.connection)) + " holds in mode " +

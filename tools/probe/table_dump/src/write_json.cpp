@@ -157,7 +157,7 @@ std::string save_json(const std::string& path, const SystemView& view, const Nam
         }
     }
     std::filesystem::remove(partial, error);
-    return path + ": the table cannot be written; check the folder, its permissions and its room";
+    return path + ": the table cannot be written; check the folder, its permissions and the free space";
 }
 
 }  // namespace mamori::table_dump

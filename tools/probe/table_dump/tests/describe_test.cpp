@@ -53,7 +53,7 @@ class DescribeTest : public ::testing::Test {
     std::remove_const_t<decltype(kSound)> table_ = kSound;
 };
 
-TEST_F(DescribeTest, ATableThatKeepsEveryRuleHasNoFindings) {
+TEST_F(DescribeTest, ATableThatCompliesWithEveryRuleHasNoFindings) {
     verifies("SWR-TAB-003");
     EXPECT_EQ(describe_table(), Sentences{});
     EXPECT_EQ(describe({}, make_view(table_)), "the table keeps every rule");
@@ -62,7 +62,7 @@ TEST_F(DescribeTest, ATableThatKeepsEveryRuleHasNoFindings) {
 TEST_F(DescribeTest, TheFrameIsNamedWithItsLength) {
     verifies("SWR-TAB-003");
     table_.frame = {-1};
-    EXPECT_EQ(describe_table(), Sentences{"the frame of -1 ns is not positive"});
+    EXPECT_EQ(describe_table(), Sentences{"the major frame of -1 ns is not positive"});
 }
 
 TEST_F(DescribeTest, AConnectionIsNamedWithTheAgeLimitOrDelayThatItDoesNotState) {
@@ -114,10 +114,10 @@ TEST_F(DescribeTest, WindowsAreNamedWithTheTimesThatDisagree) {
     table_.windows[1].offset = 3_ms;
     EXPECT_EQ(
         describe_table(),
-        (Sentences{"window 'sense': its period of 3 ms does not divide the frame of 10 ms",
-                   "window 'plan': it opens at 3 ms for 8 ms and does not lie inside its period of 10 ms",
-                   "connection 'monitor.out -> planner.in': window 'plan' may open while window 'sense' "
-                   "on another core is open"}));
+        (Sentences{"window 'sense': its period of 3 ms does not divide the major frame of 10 ms",
+                   "window 'plan': it starts at 3 ms for 8 ms and is not inside its period of 10 ms",
+                   "connection 'monitor.out -> planner.in': window 'plan' can start while window 'sense' "
+                   "on another core runs"}));
 }
 
 TEST_F(DescribeTest, OverlappingWindowsAreBothNamed) {
@@ -126,7 +126,7 @@ TEST_F(DescribeTest, OverlappingWindowsAreBothNamed) {
     EXPECT_EQ(describe_table(), Sentences{"window 'plan': it overlaps window 'sense' on core 0"});
 }
 
-TEST_F(DescribeTest, WindowsOfOneNameAreToldApartByTheirRows) {
+TEST_F(DescribeTest, WindowsWithEqualNamesAreDistinguishedByTheirRows) {
     verifies("SWR-TAB-003");
     table_.windows[1].name = "sense";
     EXPECT_EQ(describe_table(), Sentences{"window 'sense': row 1 has the name of row 0"});
@@ -159,11 +159,11 @@ TEST_F(DescribeTest, RatesAreComparedWithTheOpenings) {
     table_.windows[0].alternative_periods[0] = 1500_us;
     EXPECT_EQ(
         describe_table(),
-        (Sentences{"window 'sense': its rate of 900 Hz is not that of its openings, every 1 ms",
-                   "window 'sense': a slower period is no whole multiple of its period of 1 ms: 1500 us"}));
+        (Sentences{"window 'sense': its rate of 900 Hz does not match its window starts, every 1 ms",
+                   "window 'sense': a slower period is not a multiple of its period of 1 ms: 1500 us"}));
 }
 
-TEST_F(DescribeTest, AComponentInTwoPlacesIsNamedWithBothWindows) {
+TEST_F(DescribeTest, AComponentInTwoWindowsIsNamedWithBoth) {
     verifies("SWR-TAB-003");
     const auto table = system(frame(1_ms), window("sense", 0_us, 1_us, budget(1_us), run(g_encoder)),
                               window("plan", 1_us, 1_us, budget(1_us), run(g_encoder)));
@@ -177,11 +177,11 @@ TEST_F(DescribeTest, ConnectionsAndInputsAreNamedByComponentAndPort) {
         frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_encoder, g_monitor, g_planner)),
         connect(g_encoder.out, g_monitor.in, any_age()), connect(g_encoder.out, g_monitor.in, any_age()));
     EXPECT_EQ(describe_elements(make_view(table)),
-              (Sentences{"input 'monitor.in' is fed by more than one connection",
-                         "input 'planner.in' is mandatory and nothing feeds it"}));
+              (Sentences{"input 'monitor.in' has more than one connection",
+                         "input 'planner.in' is mandatory and has no connection"}));
 }
 
-TEST_F(DescribeTest, AConnectionOfAStrangerIsNamedAsFarAsItIsKnown) {
+TEST_F(DescribeTest, AConnectionOfAnUnknownComponentIsNamedByItsKnownParts) {
     verifies("SWR-TAB-003");
     const auto table = system(frame(1_ms), window("w", 0_us, 1_us, budget(1_us), run(g_monitor)),
                               connect(g_second_encoder.out, g_monitor.in, any_age()));
@@ -190,7 +190,7 @@ TEST_F(DescribeTest, AConnectionOfAStrangerIsNamedAsFarAsItIsKnown) {
                         "that a window runs"});
 }
 
-TEST_F(DescribeTest, CrossingsAreNamedByTheirConnections) {
+TEST_F(DescribeTest, InterCoreBuffersAreNamedByTheirConnections) {
     verifies("SWR-TAB-003");
     table_.connections[0].crossing = &g_crossing;
     table_.connections[1].operations = table_.connections[0].operations;
@@ -206,12 +206,12 @@ TEST_F(DescribeTest, FaultsAndReactionsAreNamedByTheirNumbers) {
     table_.reactions[1].fault = 7U;
     table_.reactions[0].within = {0};
     EXPECT_EQ(describe_table(), (Sentences{"fault 1 has no reaction", "the reaction to fault 0 has 0 ns",
-                                           "the reaction to fault 7 answers a fault that is not declared"}));
+                                           "the reaction to fault 7 is for a fault that is not declared"}));
     table_.reactions[1].fault = 0U;
     EXPECT_EQ(describe_table()[0], "fault 0 has more than one reaction");
 }
 
-TEST_F(DescribeTest, RowsThatPointNowhereAreDescribedToo) {
+TEST_F(DescribeTest, RowsWithInvalidIndicesAreDescribedToo) {
     verifies("SWR-TAB-003", Technique::kErrorGuessing, Polarity::kViolation);
     table_.windows[0].name = nullptr;
     table_.windows[1].component_count = std::numeric_limits<std::size_t>::max();

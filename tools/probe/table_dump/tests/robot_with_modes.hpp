@@ -28,7 +28,7 @@ class Monitor final : public mamori::Component {
     using Parameters = mamori::Parameters<&Monitor::limit>;
 };
 
-/// Gives a setpoint, in one mode or the other: the planner by its path, the hand by the one who teaches.
+/// Writes a setpoint: as planner in one mode, as hand guidance of a teaching user in the other.
 class Guide final : public mamori::Component {
   public:
     constexpr explicit Guide(const char* name) noexcept : Component(name) {}

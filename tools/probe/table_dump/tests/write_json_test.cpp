@@ -49,7 +49,7 @@ json dump(const SystemView& view, const Names& names = {}) {
     return json::parse(out.str());
 }
 
-TEST(WriteJsonTest, WindowsHoldTimesRatesAndPlaces) {
+TEST(WriteJsonTest, WindowsContainTimesRatesAndIndices) {
     verifies("SWR-TAB-001");
     const json table = dump(make_view(kSystem));
 
@@ -68,7 +68,7 @@ TEST(WriteJsonTest, WindowsHoldTimesRatesAndPlaces) {
     EXPECT_TRUE(table["windows"][2]["rate_hz"].is_null());
 }
 
-TEST(WriteJsonTest, ComponentsHoldTheirWindowWorstCaseAndPorts) {
+TEST(WriteJsonTest, ComponentsContainTheirWindowWorstCaseAndPorts) {
     verifies("SWR-TAB-001");
     const json table = dump(make_view(kSystem));
 
@@ -80,7 +80,7 @@ TEST(WriteJsonTest, ComponentsHoldTheirWindowWorstCaseAndPorts) {
     EXPECT_TRUE(table["components"][0]["worst_case_ns"].is_null());
 }
 
-TEST(WriteJsonTest, ConnectionsSayWhenTheirValueArrives) {
+TEST(WriteJsonTest, ConnectionsStateWhenTheirValueArrives) {
     verifies("SWR-TAB-001");
     const json table = dump(make_view(kSystem));
 
@@ -95,7 +95,7 @@ TEST(WriteJsonTest, ConnectionsSayWhenTheirValueArrives) {
                                               "next_frame", "next_frame", "later_window"}));
 }
 
-TEST(WriteJsonTest, FaultsAndReactionsHaveTheNamesThatAreGiven) {
+TEST(WriteJsonTest, FaultsAndReactionsHaveTheGivenNames) {
     verifies("SWR-TAB-001");
     const json table = dump(make_view(kSystem), {{"Overspeed"}, {"None", "Ss1", "Sto"}});
 
@@ -120,14 +120,14 @@ TEST(WriteJsonTest, FindingsArePartOfTheDocument) {
     EXPECT_EQ(dump(make_view(kSystem))["findings"], json::array());
 }
 
-TEST(WriteJsonTest, NamesOfAnyLettersGiveWholeJson) {
+TEST(WriteJsonTest, NamesWithAnyCharactersGiveValidJson) {
     verifies("SWR-TAB-001", Technique::kErrorGuessing, Polarity::kViolation);
     auto table = kSystem;
     table.windows[0].name = "a \"b\" \\ \n\t\x01 \xe5\xae\x88";
     EXPECT_EQ(dump(make_view(table))["windows"][0]["name"], table.windows[0].name);
 }
 
-TEST(WriteJsonTest, RowsThatPointNowhereGiveWholeJson) {
+TEST(WriteJsonTest, RowsWithInvalidIndicesGiveValidJson) {
     verifies("SWR-TAB-001", Technique::kErrorGuessing, Polarity::kViolation);
     auto table = kSystem;
     table.windows[0].name = nullptr;
@@ -165,7 +165,7 @@ class SaveJsonTest : public ::testing::Test {
     std::filesystem::path folder_;
 };
 
-TEST_F(SaveJsonTest, AFileHoldsTheWholeTableAndNothingElseIsLeft) {
+TEST_F(SaveJsonTest, AFileContainsTheCompleteTableAndNoTemporaryFileRemains) {
     verifies("SWR-TAB-002");
     const std::string path = folder_ / "table.json";
     std::ofstream{path} << "old";
@@ -175,12 +175,12 @@ TEST_F(SaveJsonTest, AFileHoldsTheWholeTableAndNothingElseIsLeft) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator{folder_}, {}), 1);
 }
 
-TEST_F(SaveJsonTest, AFileThatCannotBeWrittenIsNamedAndTheOldOneStays) {
+TEST_F(SaveJsonTest, AFileThatCannotBeWrittenIsNamedAndItsContentIsUnchanged) {
     verifies("SWR-TAB-002", Technique::kFaultInjection, Polarity::kViolation);
     const std::string missing = folder_ / "missing" / "table.json";
 
     EXPECT_EQ(save_json(missing, make_view(kSystem)),
-              missing + ": the table cannot be written; check the folder, its permissions and its room");
+              missing + ": the table cannot be written; check the folder, its permissions and the free space");
     EXPECT_EQ(save_json(folder_, make_view(kSystem)),
               folder_.string() + ": is a folder; name the file for the table itself");
     EXPECT_TRUE(std::filesystem::is_empty(folder_));

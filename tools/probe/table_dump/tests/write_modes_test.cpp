@@ -36,7 +36,7 @@ json dump_rows(const std::remove_const_t<decltype(kSystem)>& table) {
     return dump(make_view(table));
 }
 
-TEST(WriteModesTest, TheTableOfTheManualIsTheFileThatTheCommandIsTestedWith) {
+TEST(WriteModesTest, TheTableOfTheManualEqualsTheTestFileOfTheCommand) {
     verifies("SWR-TAB-010", Technique::kBackToBack);
     const std::string path = ::testing::TempDir() + "robot_with_modes.json";
 
@@ -47,7 +47,7 @@ TEST(WriteModesTest, TheTableOfTheManualIsTheFileThatTheCommandIsTestedWith) {
     std::filesystem::remove(path);
 }
 
-TEST(WriteModesTest, ModesSayWhoRunsWithWhichSetAndWhereASystemBeginsAndEnds) {
+TEST(WriteModesTest, ModesContainComponentsSetsAndInitialAndSafeMode) {
     verifies("SWR-TAB-010");
     const json modes = dump(make_view(kSystem))["modes"];
 
@@ -59,7 +59,7 @@ TEST(WriteModesTest, ModesSayWhoRunsWithWhichSetAndWhereASystemBeginsAndEnds) {
     EXPECT_EQ(modes[3]["safe"], true);
 }
 
-TEST(WriteModesTest, TransitionsHaveTheNameOfTheirEventWhereOneIsGiven) {
+TEST(WriteModesTest, TransitionsHaveTheGivenNameOfTheirEvent) {
     verifies("SWR-TAB-010");
     const json transitions = dump(make_view(kSystem), {{}, {}, {"Start"}})["transitions"];
 
@@ -70,7 +70,7 @@ TEST(WriteModesTest, TransitionsHaveTheNameOfTheirEventWhereOneIsGiven) {
     EXPECT_EQ(transitions[3]["event_name"], "2");
 }
 
-TEST(WriteModesTest, ConnectionsSayWhereTheyHoldByDeclarationAndInFact) {
+TEST(WriteModesTest, ConnectionsContainTheirDeclaredAndEffectiveModes) {
     verifies("SWR-TAB-010");
     const json connections = dump(make_view(kSystem))["connections"];
 
@@ -184,7 +184,7 @@ TEST(WriteModesTest, ATableWithoutModesHasEmptyLists) {
     }
 }
 
-TEST(WriteModesTest, ModesThatPointNowhereAreWrittenWithTheirFindings) {
+TEST(WriteModesTest, ModesWithInvalidIndicesAreWrittenWithTheirFindings) {
     verifies("SWR-TAB-013", Technique::kErrorGuessing, Polarity::kViolation);
     auto table = kSystem;
     table.modes.modes[1].set_name = "fsat";
@@ -221,7 +221,7 @@ TEST(WriteModesTest, AModeWithoutANameOrBeyondTheMaskIsWritten) {
               std::string::npos);
 }
 
-TEST(WriteModesTest, ParametersThatPointNowhereAreWritten) {
+TEST(WriteModesTest, ParametersWithInvalidIndicesAreWritten) {
     verifies("SWR-TAB-013", Technique::kErrorGuessing, Polarity::kViolation);
     auto table = kSystem;
     table.configuration.parameters[0] = {};
@@ -235,7 +235,7 @@ TEST(WriteModesTest, ParametersThatPointNowhereAreWritten) {
     EXPECT_EQ(document["findings"], json({"parameter '?.?': row 0 is invalid; rule: " + rule}));
 }
 
-TEST(WriteModesTest, SetsThatPointNowhereAreWrittenAndNamed) {
+TEST(WriteModesTest, SetsWithInvalidIndicesAreWrittenAndNamed) {
     verifies("SWR-TAB-013", Technique::kErrorGuessing, Polarity::kViolation);
     auto table = kSystem;
     table.configuration.sets[0] = {nullptr, 1U, std::numeric_limits<std::size_t>::max()};
@@ -252,11 +252,11 @@ TEST(WriteModesTest, SetsThatPointNowhereAreWrittenAndNamed) {
     EXPECT_EQ(document["findings"], (json{"configuration set '?': row 0" + invalid + "0" + rule,
                                           "configuration set 'slow': row 1" + invalid + "0" + rule,
                                           "configuration set 'slow': row 1" + invalid + "1" + rule}));
-    EXPECT_EQ(describe({Rule::kConfigurationRefused, 0U, 0U}, make_view(table)).substr(0U, 38U),
-              "configuration set '?' cannot be judged");
+    EXPECT_EQ(describe({Rule::kConfigurationRefused, 0U, 0U}, make_view(table)).substr(0U, 39U),
+              "configuration set '?' cannot be checked");
 }
 
-TEST(WriteModesTest, RowsThatAreInvalidInThemselvesAreToldFirstAndAllAtOnce) {
+TEST(WriteModesTest, InvalidRowsAreReportedFirstAndTogether) {
     verifies("SWR-TAB-013", Technique::kFaultInjection, Polarity::kViolation);
     auto table = kSystem;
     table.configuration.sets[0].name = nullptr;

@@ -56,15 +56,15 @@ std::string check(const std::vector<CostCore>& cores, const CostOptions& options
     if (cores.empty() || options.cycles == 0U || options.cycles > kCyclesMax || options.counted.every == 0U ||
         options.counted.first >= options.cycles || options.out.empty() || options.priority < 1 ||
         options.priority > 99) {
-        return "a cost run needs a core, 1 .. " + std::to_string(kCyclesMax) +
-               " cycles, a first counted one below that, every one of 1 or more, a folder for its results, "
+        return "a cost run requires a core, 1 .. " + std::to_string(kCyclesMax) +
+               " cycles, --first below this number, --every of at least 1, a folder for its results, "
                "and "
                "a priority of 1 .. 99";
     }
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (error) {
-        return options.out + ": the folder cannot be made: " + error.message();
+        return options.out + ": the folder cannot be created: " + error.message();
     }
     return {};
 }
@@ -179,9 +179,9 @@ TimingResult run_cost(const std::vector<CostCore>& cores, Devices& devices, cons
     try {
         return measure(cores, devices, options);
     } catch (const std::bad_alloc&) {
-        return {TimingOutcome::kFailed, "not enough memory for so many cycles: count fewer"};
+        return {TimingOutcome::kFailed, "not enough memory for so many cycles: use fewer"};
     } catch (const std::system_error& error) {
-        return {TimingOutcome::kFailed, std::string{"no thread to be had: "} + error.what()};
+        return {TimingOutcome::kFailed, std::string{"no thread can be created: "} + error.what()};
     }
 }
 

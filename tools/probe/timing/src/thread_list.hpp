@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Names the threads of a switch log, and notes when a stopped process continued.
+/// Names the threads of a switch log, and records when a stopped process continued.
 #ifndef MAMORI_TIMING_THREAD_LIST_HPP
 #define MAMORI_TIMING_THREAD_LIST_HPP
 
@@ -14,9 +14,9 @@
 namespace mamori::timing {
 
 enum class ThreadKind : std::uint8_t {
-    kOwn,     ///< of this process
-    kOther,   ///< of another process
-    kKernel,  ///< of the kernel
+    kOwn,     ///< thread of this process
+    kOther,   ///< thread of another process
+    kKernel,  ///< kernel thread
 };
 
 struct NamedThread {
@@ -31,7 +31,7 @@ struct NamedThread {
 /// of other processes that have ended.
 std::vector<NamedThread> list_threads(const std::vector<const SwitchLog*>& logs);
 
-/// Starts to note each SIGCONT of this process: it was stopped before. Other handlers are replaced.
+/// Starts to record each SIGCONT of this process, which ends a stop. Replaces other handlers.
 void watch_continuations() noexcept;
 /// Restores the default action. @return readings of CLOCK_MONOTONIC [ns], at most 1024.
 std::vector<std::int64_t> end_continuations();

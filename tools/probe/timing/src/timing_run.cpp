@@ -89,7 +89,7 @@ class RunControl final : public OpeningObserver {
     Duration block_;
 };
 
-/// All data of one core that the threads of its windows may still use after the run.
+/// All data of one core that the threads of its windows can still use after the run.
 struct CoreSession {
     CoreSession(const TimedCore& core, RunLog& rows, const FrameClock& clock, ThreadPlace place,
                 IntrospectionLoad* load, Duration block)
@@ -165,7 +165,7 @@ struct Room {
     std::size_t steps{kSpareSteps};
 };
 
-/// @return nothing if that many cycles cannot be counted.
+/// @return no value if the number of cycles is too large to count.
 std::optional<Room> calc_room(const Executive& executive, std::uint64_t cycles) {
     const SystemView& view = executive.get_view();
     const auto cycles_max =
@@ -209,20 +209,20 @@ std::string check(const std::vector<TimedCore>& cores, const TimingOptions& opti
                   const std::vector<int>& processors) {
     if (cores.empty() || options.cycles == 0U || options.out.empty() || options.priority <= kPriorityGap ||
         options.priority > 99) {
-        return "a timing run needs a core, at least one cycle, a folder for its results, and a priority of "
+        return "a timing run requires a core, at least one cycle, a folder for its results, and a priority "
+               "of "
                "11 .. 99";
     }
     if (cores.size() > processors.size()) {
         return "the system has " + std::to_string(cores.size()) + " cores, and this process may use " +
                std::to_string(processors.size()) +
-               " processor(s): give it more (taskset, container limits) or take another machine";
+               " processor(s): permit more (taskset, container limits) or use another host";
     }
     if (calc_memory(cores, options.cycles) > get_memory()) {
-        return std::to_string(options.cycles) +
-               " cycles need more memory than this machine has free: run fewer";
+        return std::to_string(options.cycles) + " cycles need more memory than this host has free: run fewer";
     }
     if (options.states.empty() == static_cast<bool>(options.get_state)) {
-        return "TimingOptions::states and get_state belong together: set both or neither";
+        return "TimingOptions::states and get_state require each other: set both or neither";
     }
     if (options.with_requests && options.introspection == nullptr) {
         return "this program has no introspection for --requests: set TimingOptions::introspection";
@@ -230,7 +230,7 @@ std::string check(const std::vector<TimedCore>& cores, const TimingOptions& opti
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (error) {
-        return options.out + ": the folder cannot be made: " + error.message();
+        return options.out + ": the folder cannot be created: " + error.message();
     }
     return {};
 }
@@ -306,7 +306,7 @@ SwitchFacts collect_switches(const Session& session) {
     SwitchFacts facts;
     std::vector<const SwitchLog*> logs;
     for (const std::unique_ptr<CoreSession>& core : session.cores) {
-        // The log is that of one processor, so it needs threads that do not leave it.
+        // The log covers one processor, so the threads must be bound to it.
         const Right bound = combine(core->processor, core->guard.get_processor_right());
         CoreSwitches one{&core->switches, combine(core->switch_right, bound), core->processor_number, {}};
         for (std::size_t window = 0U; window < core->window_count; ++window) {
@@ -394,7 +394,7 @@ std::string write_all(const Session& session, const TimingOptions& options, cons
     return write_run(options.out, logs, facts);
 }
 
-/// Hanging work uses it until the process ends: it must never be destroyed, not even at exit.
+/// Hanging work uses the session until the process ends, so it must never be destroyed, not even at exit.
 void keep_for_ever(std::unique_ptr<Session> session) {
     static auto* const kept = new std::vector<std::unique_ptr<Session>>;
     kept->push_back(std::move(session));
@@ -426,7 +426,7 @@ TimingResult measure(const std::vector<TimedCore>& cores, const TimingOptions& o
         core->host.finish();
     }
     RunFacts facts = collect(*session, options, view.frame);
-    session->load.reset();  // it would outlive this function together with the hanging work
+    session->load.reset();  // otherwise, it would remain together with the hanging work
     facts.reference = reference;
     facts.states = options.states;
     facts.memory = memory;
@@ -473,7 +473,7 @@ TimingResult run_timing(const std::vector<TimedCore>& cores, const TimingOptions
     } catch (const std::bad_alloc&) {
         return {TimingOutcome::kFailed, "not enough memory for so many cycles: run fewer"};
     } catch (const std::system_error& error) {
-        return {TimingOutcome::kFailed, std::string{"no threads to be had: "} + error.what()};
+        return {TimingOutcome::kFailed, std::string{"no threads can be created: "} + error.what()};
     }
 }
 

@@ -261,7 +261,7 @@ std::string write_files(const std::string& folder, const std::vector<File>& file
     for (const auto& [name, content] : files) {
         if (!write_whole(folder + "/" + name, content)) {
             return folder + "/" + name +
-                   ": cannot be written; check the folder, its permissions and its room";
+                   ": cannot be written; check the folder, its permissions and the free space";
         }
     }
     return {};

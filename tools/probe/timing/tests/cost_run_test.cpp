@@ -63,7 +63,7 @@ class CostRunTest : public ::testing::Test {
     CostOptions options_;
 };
 
-TEST_F(CostRunTest, FilesSayWhatWasRunAndWithWhatItWasMade) {
+TEST_F(CostRunTest, FilesDescribeTheRunAndTheBuild) {
     verifies("SWR-TIM-030");
     options_.tell_notes = [] { return std::vector<std::string>{"a note"}; };
 
@@ -90,7 +90,7 @@ TEST_F(CostRunTest, FilesSayWhatWasRunAndWithWhatItWasMade) {
     EXPECT_EQ(devices_.ended, 10U);
 }
 
-TEST_F(CostRunTest, ByTheClockTheRightsAndTheReferenceAreTold) {
+TEST_F(CostRunTest, InRealTimePrivilegesAndReferenceAreRecorded) {
     verifies("SWR-TIM-033");
     options_.is_paced = true;
 
@@ -105,7 +105,7 @@ TEST_F(CostRunTest, ByTheClockTheRightsAndTheReferenceAreTold) {
     }
 }
 
-TEST_F(CostRunTest, BadOptionsAreRefusedBeforeAnythingRuns) {
+TEST_F(CostRunTest, InvalidOptionsAreRejectedBeforeTheRun) {
     verifies("SWR-TIM-030", Technique::kBoundaryValues, Polarity::kViolation);
     const auto refuse = [this](CostOptions bad) {
         const TimingResult result = run_cost({{executive_, clock_}}, devices_, bad);
@@ -138,7 +138,7 @@ TEST_F(CostRunTest, BadOptionsAreRefusedBeforeAnythingRuns) {
     EXPECT_FALSE(std::filesystem::exists(folder_));
 }
 
-TEST_F(CostRunTest, AFolderThatIsAFileIsRefused) {
+TEST_F(CostRunTest, AFolderThatIsAFileIsRejected) {
     verifies("SWR-TIM-030", Technique::kErrorGuessing, Polarity::kViolation);
     std::ofstream{folder_} << "in the way";
 
@@ -149,7 +149,7 @@ TEST_F(CostRunTest, AFolderThatIsAFileIsRefused) {
     std::filesystem::remove(folder_);
 }
 
-TEST_F(CostRunTest, ATableThatCannotBeWrittenLeavesNothingThatLooksWhole) {
+TEST_F(CostRunTest, ATableThatCannotBeWrittenLeavesNoCompleteFolder) {
     verifies("SWR-TIM-030", Technique::kFaultInjection, Polarity::kViolation);
     options_.save_table = [](const std::string&) { return std::string{"no room"}; };
 

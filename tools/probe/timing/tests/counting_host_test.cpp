@@ -71,7 +71,7 @@ struct Expected {
     WindowHost::Pass pass;
 };
 
-TEST_F(CountingHostTest, EachStepHasARowWithItsPlannedOpeningInTheOrderOfTheCalls) {
+TEST_F(CountingHostTest, EachStepHasARowWithItsPlannedWindowStartInCallOrder) {
     verifies("SWR-TIM-030");
     RunLog log{0U, 64U};
     CountingHost sut{clock_, log, executive_.get_view(), {}, wall_, false};
@@ -99,7 +99,7 @@ TEST_F(CountingHostTest, EachStepHasARowWithItsPlannedOpeningInTheOrderOfTheCall
     EXPECT_EQ(overrun_count_, 0U);
 }
 
-TEST_F(CountingHostTest, CyclesThatAreNotChosenRunWithoutRows) {
+TEST_F(CountingHostTest, UnselectedCyclesRunWithoutRows) {
     verifies("SWR-TIM-030", Technique::kBoundaryValues, Polarity::kViolation);
     RunLog log{0U, 64U};
     CountingHost sut{clock_, log, executive_.get_view(), {1U, 2U}, wall_, false};
@@ -113,7 +113,7 @@ TEST_F(CountingHostTest, CyclesThatAreNotChosenRunWithoutRows) {
     EXPECT_EQ(rows[8].release.ns, 31'000'000);
 }
 
-TEST_F(CountingHostTest, WorkForWhichThereIsNoRowRunsAllTheSameAndIsCounted) {
+TEST_F(CountingHostTest, WorkWithoutARowRunsAndIsCountedAsLost) {
     verifies("SWR-TIM-030", Technique::kBoundaryValues, Polarity::kViolation);
     RunLog log{0U, 3U};
     CountingHost sut{clock_, log, executive_.get_view(), {}, wall_, false};
@@ -150,7 +150,7 @@ TEST_F(CountingHostTest, PacedWorkDoesNotBeginBeforeItsInstant) {
     }
 }
 
-TEST_F(CountingHostTest, AWindowKnowsNothingOfTheCounting) {
+TEST_F(CountingHostTest, CountingDoesNotAffectAWindow) {
     verifies("SWR-TIM-030");
     RunLog log{0U, 64U};
     CountingHost sut{clock_, log, executive_.get_view(), {}, wall_, false};

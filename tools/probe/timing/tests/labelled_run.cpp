@@ -45,13 +45,13 @@ enum class Kind : std::uint8_t {
     kSpin,        ///< the component works too long
     kWait,        ///< the component waits too long
     kHang,        ///< the component works for several cycles
-    kOwnAbove,    ///< a thread of the program holds the runner
-    kOwnBetween,  ///< a thread of the program holds the window only
-    kOwnBrief,    ///< as kOwnAbove, by a thread that begins and ends with the event
-    kHogBefore,   ///< a process of the highest priority begins before the window
-    kHogWithin,   ///< the same within the step of the component
+    kOwnAbove,    ///< a thread of the program delays the runner
+    kOwnBetween,  ///< a thread of the program delays the window only
+    kOwnBrief,    ///< as kOwnAbove, by a thread that starts and ends with the event
+    kHogBefore,   ///< a process with the highest priority starts before the window
+    kHogWithin,   ///< such a process starts within the step of the component
     kStopBefore,  ///< the program is stopped before the window
-    kStopWithin,  ///< the same within the step of the component
+    kStopWithin,  ///< the program is stopped within the step of the component
 };
 constexpr std::size_t kKinds = 10U;
 constexpr std::array<const char*, kKinds> kNames{"spin",        "wait",       "hang",       "own above",
@@ -127,7 +127,7 @@ struct Shared {
     std::atomic<bool> is_over{false};
 };
 
-/// States the epoch to all that act at planned instants.
+/// Publishes the epoch for the threads and processes that act at planned instants.
 class Announcer final : public ports::posix_rt::OpeningObserver {
   public:
     explicit Announcer(Shared& shared) noexcept : shared_(shared) {}
@@ -313,7 +313,7 @@ int run_events(const timing::TimingOptions& options, std::uint32_t seed) {
     std::thread between = start_rival(shared, plan, Kind::kOwnBetween, 75);
     std::thread brief = start_brief_rivals(shared, plan);
     std::thread harmless = start_harmless(shared);
-    // Linux hands a stop to the main thread first, which must not wait for the load.
+    // Linux delivers a stop to the main thread first, which must not wait for the load.
     static_cast<void>(set_priority(pthread_self(), 50));
     const timing::TimingResult result = timing::run_timing({{executive, threads, &announcer}}, options);
     shared.is_over.store(true);

@@ -32,7 +32,7 @@ TEST(Npy, RowsFollowAHeaderThatNamesThemAndEndsAtAMultipleOf64) {
               (std::string{"\xFE\xFF\xFF\xFF\xFF\xFF\xFF\xFF\x02\x01\x00\x00", 12U}));
 }
 
-TEST(Npy, ATableWithoutRowsIsAWholeFile) {
+TEST(Npy, ATableWithoutRowsIsAValidFile) {
     verifies("SWR-TIM-003");
     const std::string file = NpyTable{{{"at", 8U}}}.make();
 

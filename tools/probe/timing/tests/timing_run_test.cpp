@@ -128,7 +128,7 @@ class TimingRunTest : public ::testing::Test {
     TimingOptions options_{5U, {}, 80, {}, {}};
 };
 
-TEST_F(TimingRunTest, AWholeRunLeavesEveryOpeningAndEveryStepOfAllCores) {
+TEST_F(TimingRunTest, ACompleteRunWritesAllWindowInstancesAndStepsOfAllCores) {
     verifies("SWR-TIM-003");
     if (!has_two_processors()) {
         GTEST_SKIP() << "verdict=not-shown: needs two processors";
@@ -193,7 +193,7 @@ TEST_F(TimingRunTest, TheStateOfTheSystemIsWrittenForEachWindow) {
     EXPECT_EQ(last, 1U);
 }
 
-TEST_F(TimingRunTest, StatesWithoutTheirSourceAreRefused) {
+TEST_F(TimingRunTest, StatesWithoutGetStateAreRejected) {
     verifies("SWR-TIM-046", Technique::kErrorGuessing, Polarity::kViolation);
     options_.states = {{"slow", false}};
 
@@ -206,14 +206,14 @@ TEST_F(TimingRunTest, StatesWithoutTheirSourceAreRefused) {
     EXPECT_NE(result.message.find("get_state"), std::string::npos);
 }
 
-TEST_F(TimingRunTest, PlannedInstantsAreWholePeriodsApart) {
+TEST_F(TimingRunTest, PlannedInstantsAreMultiplesOfThePeriodApart) {
     verifies("SWR-PRT-038");
     ASSERT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kWhole);
 
     expect_whole_periods();
 }
 
-TEST_F(TimingRunTest, PlannedInstantsStayWholePeriodsApartAfterADelayOfTwoPeriods) {
+TEST_F(TimingRunTest, PlannedInstantsStayMultiplesApartAfterADelayOfTwoPeriods) {
     verifies("SWR-PRT-038", Technique::kFaultInjection, Polarity::kViolation);
     Delayer delayer;
     ASSERT_EQ(run_timing({{upper_, upper_threads_, &delayer}}, options_).outcome, TimingOutcome::kWhole);
@@ -236,7 +236,7 @@ TEST_F(TimingRunTest, BlocksWithAndWithoutRequestsAlternate) {
     EXPECT_GT(requests["count"], 0);
 }
 
-TEST_F(TimingRunTest, RequestsWithoutIntrospectionAreRejectedBeforeAnythingRuns) {
+TEST_F(TimingRunTest, RequestsWithoutIntrospectionAreRejectedBeforeTheRun) {
     verifies("SWR-TIM-041", Technique::kErrorGuessing, Polarity::kViolation);
     options_.with_requests = true;
 
@@ -247,7 +247,7 @@ TEST_F(TimingRunTest, RequestsWithoutIntrospectionAreRejectedBeforeAnythingRuns)
     EXPECT_EQ(first_.run_count, 0);
 }
 
-TEST_F(TimingRunTest, EachCoreOpensItsWindowsInAllFramesThatWereAskedFor) {
+TEST_F(TimingRunTest, EachCoreRunsItsWindowsInAllRequestedMajorFrames) {
     verifies("SWR-TIM-002");
     if (!has_two_processors()) {
         GTEST_SKIP() << "verdict=not-shown: needs two processors";
@@ -263,7 +263,7 @@ TEST_F(TimingRunTest, EachCoreOpensItsWindowsInAllFramesThatWereAskedFor) {
     EXPECT_LE(second_.run_count, 5);
 }
 
-TEST_F(TimingRunTest, AnInterruptedRunKeepsWhatItHasAndSaysSo) {
+TEST_F(TimingRunTest, AnInterruptedRunWritesItsDataAndMarksItAsPartial) {
     verifies("SWR-TIM-002", Technique::kErrorGuessing, Polarity::kViolation);
     options_.cycles = 100'000U;
     first_.signal_at = 3;
@@ -288,7 +288,7 @@ struct HangingSystem {
     std::array<WindowThread, 1U> threads;
 };
 
-TEST_F(TimingRunTest, WorkThatHangsIsAStepWithoutEndAndTheRunGoesOn) {
+TEST_F(TimingRunTest, HangingWorkIsAStepWithoutEndAndTheRunContinues) {
     verifies("SWR-TIM-002", Technique::kFaultInjection, Polarity::kViolation);
     static HangingSystem hanging;
     hanging.worker.hang_at = 2;
@@ -305,7 +305,7 @@ TEST_F(TimingRunTest, WorkThatHangsIsAStepWithoutEndAndTheRunGoesOn) {
     hanging.worker.is_freed = true;
 }
 
-TEST_F(TimingRunTest, BadOptionsAreRefusedBeforeAnythingRuns) {
+TEST_F(TimingRunTest, InvalidOptionsAreRejectedBeforeTheRun) {
     verifies("SWR-TIM-002", Technique::kBoundaryValues, Polarity::kViolation);
     options_.cycles = 0U;
     EXPECT_EQ(run_timing({{upper_, upper_threads_}}, options_).outcome, TimingOutcome::kRefused);
@@ -320,7 +320,7 @@ TEST_F(TimingRunTest, BadOptionsAreRefusedBeforeAnythingRuns) {
     EXPECT_FALSE(std::filesystem::exists(folder_));
 }
 
-TEST_F(TimingRunTest, MoreCyclesThanMemoryHoldsAreRefused) {
+TEST_F(TimingRunTest, CyclesThatExceedTheMemoryAreRejected) {
     verifies("SWR-TIM-002", Technique::kBoundaryValues, Polarity::kViolation);
     for (const std::uint64_t cycles :
          {std::uint64_t{100'000'000'000U}, std::numeric_limits<std::uint64_t>::max()}) {
@@ -352,7 +352,7 @@ TEST_F(TimingRunTest, AFileThatCannotBeWrittenFailsTheRunAndLeavesNoFacts) {
     EXPECT_FALSE(std::filesystem::exists(folder_ + "/run.json")) << "a folder with it counts as complete";
 }
 
-TEST_F(TimingRunTest, AnEarlierResultThatCannotBeRemovedIsNamedBeforeAnythingRuns) {
+TEST_F(TimingRunTest, AnEarlierResultThatCannotBeRemovedIsNamedBeforeTheRun) {
     verifies("SWR-TIM-003", Technique::kFaultInjection, Polarity::kViolation);
     std::filesystem::create_directories(folder_ + "/openings.npy/full");
 
@@ -364,7 +364,7 @@ TEST_F(TimingRunTest, AnEarlierResultThatCannotBeRemovedIsNamedBeforeAnythingRun
     EXPECT_EQ(first_.run_count, 0);
 }
 
-TEST_F(TimingRunTest, ASignalWhileTheFilesAreWrittenLosesNothing) {
+TEST_F(TimingRunTest, ASignalDuringWritingLosesNoData) {
     verifies("SWR-TIM-002", Technique::kErrorGuessing, Polarity::kViolation);
     options_.tell_notes = [] {
         static_cast<void>(raise(SIGTERM));
@@ -388,7 +388,7 @@ TEST_F(TimingRunTest, FindingsOfTheProgramAreWritten) {
     EXPECT_EQ(read_facts()["findings"], (Json{"the arm stands", "and why"}));
 }
 
-TEST_F(TimingRunTest, MoreCoresThanProcessorsAreRefused) {
+TEST_F(TimingRunTest, MoreCoresThanProcessorsAreRejected) {
     verifies("SWR-TIM-002", Technique::kBoundaryValues, Polarity::kViolation);
     cpu_set_t before;
     ASSERT_EQ(sched_getaffinity(0, sizeof(before), &before), 0);

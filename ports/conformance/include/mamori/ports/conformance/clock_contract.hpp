@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What every port promises of its clock and of waiting for an instant.
+/// Contract of each port for its clock and for waits.
 ///
 /// @satisfies SWR-CNF-001      Design: docs/design/conformance.md#clock
 #ifndef MAMORI_PORTS_CONFORMANCE_CLOCK_CONTRACT_HPP
@@ -11,7 +11,7 @@
 
 namespace mamori::ports::conformance {
 
-/// A port's time line, as its author hands it to the rules.
+/// Test adapter for the time line of a port.
 class ClockRig {
   public:
     ClockRig() = default;
@@ -20,17 +20,18 @@ class ClockRig {
     ClockRig& operator=(const ClockRig&) = delete;
 
     virtual Instant get_now() const = 0;
-    /// Lets time pass until `instant`; does nothing when it has passed.
+    /// Waits until `instant`. Returns immediately if it has passed.
     virtual void wait_until(Instant instant) = 0;
-    /// Measure of the rules' times, > 0: long against a reading of the clock, short against the patience of
-    /// whoever waits for the test.
+    /// Time unit of the rules, > 0: much longer than a reading of the clock, and short enough for a test with
+    /// many units.
     virtual Duration get_tick() const = 0;
-    /// True where time is simulated: it passes only where it is told to, and by as much. The rules then
-    /// demand exact instants; of other ports they demand what holds however busy the machine is.
+    /// True if time is simulated and passes only during waits, by exactly the requested amount. Then the
+    /// rules check exact instants. For other ports, they check only properties that hold on a busy host, too.
     virtual bool is_exact() const = 0;
 };
 
-/// @param[in] make_rig a new port each time. @return the trials, for the runners of rule_runner.hpp.
+/// @param[in] make_rig returns a new port on each call.
+/// @return the trials for the runners of rule_runner.hpp.
 TrialFactory make_clock_trials(RigFactory<ClockRig> make_rig);
 
 }  // namespace mamori::ports::conformance

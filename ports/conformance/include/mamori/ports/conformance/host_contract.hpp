@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What every port promises of running work within a budget: the contract of WindowHost.
+/// Contract of each port for the execution of work within a budget: the contract of WindowHost.
 ///
 /// @satisfies SWR-CNF-002, SWR-CNF-003, SWR-CNF-004, SWR-CNF-005
 /// Design: docs/design/conformance.md#windows
@@ -17,37 +17,39 @@
 
 namespace mamori::ports::conformance {
 
-/// What a step of work is to do.
+/// Behaviour of a step of work.
 struct StepPlan {
-    Duration time{0};     ///< that it takes; longer where the machine is busy
-    bool is_hang{false};  ///< it does not return before HostRig::release()
+    Duration time{0};     ///< execution time; longer on a busy host
+    bool is_hang{false};  ///< the step returns only after HostRig::release()
 };
 
-/// A port's host with windows 0 .. kWindowCount - 1, whose components are 0 .. kComponentCount - 1.
+/// Test adapter for a platform host with windows 0 .. kWindowCount - 1 and components 0 .. kComponentCount -
+/// 1.
 ///
-/// Where a rig is destroyed while a step hangs, the rules have released it before.
+/// The rules release a hanging step before they destroy the adapter.
 class HostRig : public ClockRig {
   public:
     static constexpr std::size_t kWindowCount = 3U;
-    static constexpr std::size_t kStepsMax = 4U;  ///< of one piece of work
+    static constexpr std::size_t kStepsMax = 4U;  ///< maximum number of steps of one piece of work
     static constexpr std::size_t kComponentCount = kWindowCount * kStepsMax;
 
     virtual WindowHost& get_host() = 0;
     Instant get_now() const override = 0;
 
-    /// Called before the host is given work: a host that models execution times learns them here.
-    /// @param[in] work  step i of it is component `work.component` + i.
-    /// @param[in] steps what each step of it is to do.
+    /// Called before the host gets work, so that a host that models execution times knows them.
+    /// @param[in] work its step i is component `work.component` + i.
+    /// @param[in] steps behaviour of each step.
     virtual void plan(const WindowHost::Work& work, const std::vector<StepPlan>& steps) = 0;
-    /// Called within a step, on whatever thread runs it: a host that does not model execution times takes its
-    /// time here, and returns from a hang after release() only.
+    /// Called within a step, on the thread that runs it. A host that does not model execution times consumes
+    /// the time here, and returns from a hang only after release().
     virtual void spend(std::size_t window, const StepPlan& step) noexcept = 0;
-    /// Ends the hang of a window's work, now or, where it has not begun yet, as soon as it does. The next
-    /// plan() of the window makes a new one possible.
+    /// Ends the hang of the work of a window. A hang that has not begun yet ends as soon as it begins. The
+    /// next plan() of the window permits a new hang.
     virtual void release(std::size_t window) noexcept = 0;
 };
 
-/// @param[in] make_rig a new port each time. @return the trials, for the runners of rule_runner.hpp.
+/// @param[in] make_rig returns a new port on each call.
+/// @return the trials for the runners of rule_runner.hpp.
 TrialFactory make_host_trials(RigFactory<HostRig> make_rig);
 
 }  // namespace mamori::ports::conformance

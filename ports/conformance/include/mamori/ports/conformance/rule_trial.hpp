@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A contract as a list of rules over one type: the subject, which holds a port's rig and the model.
+/// A contract as a list of rules for one type, the subject, which contains the test adapter of a port and the
+/// model.
 ///
 /// @satisfies SWR-CNF-008      Design: docs/design/conformance.md#rules
 #ifndef MAMORI_PORTS_CONFORMANCE_RULE_TRIAL_HPP
@@ -17,12 +18,12 @@
 
 namespace mamori::ports::conformance {
 
-/// What may be done when, and what must be so afterwards.
+/// A rule: an action, its precondition, and the expected state afterwards.
 template <typename Subject>
 struct Rule {
     std::string name;
     std::string requirement;
-    std::function<bool(const Subject&)> precondition;  ///< of the model, without asking the port
+    std::function<bool(const Subject&)> precondition;  ///< evaluates the model only, not the port
     std::function<void(Subject&, Judge&)> action;
 };
 
@@ -52,7 +53,7 @@ class RuleTrial final : public Trial {
     std::unique_ptr<Subject> subject_;
 };
 
-/// Trials of one list of rules. @param[in] make_subject a new port with its model each time.
+/// Trials of one list of rules. @param[in] make_subject returns a new port with its model on each call.
 template <typename Subject>
 TrialFactory make_trials(Rules<Subject> rules, std::function<std::unique_ptr<Subject>()> make_subject) {
     const auto shared = std::make_shared<const Rules<Subject>>(std::move(rules));

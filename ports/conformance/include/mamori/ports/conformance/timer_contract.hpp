@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What every port promises of its window timer: each window opens at its place on the fixed grid of the
-/// frame, not before it, in order, and however late an earlier one was.
+/// Contract of each port for its window timer: each window starts in order and not before its planned instant
+/// of the schedule, also after late windows.
 ///
 /// @satisfies SWR-CNF-011      Design: docs/design/conformance.md#timer
 #ifndef MAMORI_PORTS_CONFORMANCE_TIMER_CONTRACT_HPP
@@ -19,12 +19,12 @@
 
 namespace mamori::ports::conformance {
 
-/// A port that drives one executive with kWindowCount windows, each with the component of the same number.
+/// Test adapter for a port that runs one executive with kWindowCount windows. Window i runs component i.
 class TimerRig {
   public:
     static constexpr std::size_t kWindowCount = 2U;
 
-    /// Openings so far that ran no component, or cut one off.
+    /// Counts of skipped and aborted window instances so far.
     struct Counts {
         std::uint64_t missed{0U};
         std::uint64_t overran{0U};
@@ -35,28 +35,29 @@ class TimerRig {
     TimerRig(const TimerRig&) = delete;
     TimerRig& operator=(const TimerRig&) = delete;
 
-    /// Opens every window of the next `frame_count` frames, from the first frame on that can be kept, and
-    /// returns after the last of them.
+    /// Runs all windows of the next `frame_count` major frames, from the first major frame that can start in
+    /// time. Returns after the last window.
     virtual void run(std::uint64_t frame_count) = 0;
     virtual Counts get_counts() const = 0;
     virtual WindowHost& get_host() = 0;
-    /// Lets time pass until `instant`; does nothing when it has passed.
+    /// Waits until `instant`. Returns immediately if it has passed.
     virtual void wait_until(Instant instant) = 0;
-    /// As ClockRig::is_exact(); the first frame then begins at instant 0, and each where the last one ended.
+    /// As ClockRig::is_exact(). If true, the first major frame begins at instant 0, and each run begins at
+    /// the end of the previous run.
     virtual bool is_exact() const = 0;
 
-    /// What a component takes from now on; for a host that models execution times.
+    /// Sets the execution time of a component, for a host that models execution times.
     virtual void plan(std::size_t component, Duration time) = 0;
-    /// Called in a component's action, on whatever thread runs it, with the same time; for a host that
+    /// Called with the same time in the action of a component, on the thread that runs it, for a host that
     /// measures execution times.
     virtual void spend(Duration time) noexcept = 0;
 };
 
-/// Makes a new port around an executive that was initialised and started, and that outlives it.
+/// Makes a new port for an initialised and started executive, which must outlive the port.
 using TimerRigFactory = std::function<std::unique_ptr<TimerRig>(Executive&)>;
 
-/// @param[in] make_rig a new port each time; its frames last 8 ms. @return the trials, for the runners of
-///            rule_runner.hpp.
+/// @param[in] make_rig returns a new port on each call; its major frames last 8 ms.
+/// @return the trials for the runners of rule_runner.hpp.
 TrialFactory make_timer_trials(TimerRigFactory make_rig);
 
 }  // namespace mamori::ports::conformance

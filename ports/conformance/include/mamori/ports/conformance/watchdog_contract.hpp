@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What every port promises of its hardware watchdog: silent before its first service, and once it was not
-/// serviced in time it has opened its relay for good.
+/// Contract of each port for its hardware watchdog: it is inactive before its first service. If it is not
+/// serviced in time, it opens its relay permanently.
 ///
 /// @satisfies SWR-CNF-006      Design: docs/design/conformance.md#watchdog
 #ifndef MAMORI_PORTS_CONFORMANCE_WATCHDOG_CONTRACT_HPP
@@ -13,7 +13,7 @@
 
 namespace mamori::ports::conformance {
 
-/// A watchdog that was not serviced yet.
+/// Test adapter for a watchdog that was not serviced yet.
 class WatchdogRig {
   public:
     WatchdogRig() = default;
@@ -22,18 +22,19 @@ class WatchdogRig {
     WatchdogRig& operator=(const WatchdogRig&) = delete;
 
     virtual safety::Watchdog& get_watchdog() = 0;
-    /// Longest time between two services that the watchdog accepts, > 1 ns.
+    /// Maximum time between two services, > 1 ns.
     virtual Duration get_timeout() const = 0;
-    /// On the time line of the watchdog's own clock.
+    /// Current time of the clock of the watchdog.
     virtual Instant get_now() const = 0;
-    /// At least this much time passes, also for the watchdog.
+    /// Waits at least this time, measured with the clock of the watchdog.
     virtual void let_pass(Duration time) = 0;
-    /// Whether the relay is open now. A watchdog that is simulated looks at its clock here and in its
-    /// service, not in let_pass(): else the rules cannot see that a late service is refused.
+    /// True if the relay is open. A simulated watchdog must read its clock here and in its service, not in
+    /// let_pass(). Otherwise, the rules cannot check that a late service is rejected.
     virtual bool has_expired() = 0;
 };
 
-/// @param[in] make_rig a new port each time. @return the trials, for the runners of rule_runner.hpp.
+/// @param[in] make_rig returns a new port on each call.
+/// @return the trials for the runners of rule_runner.hpp.
 TrialFactory make_watchdog_trials(RigFactory<WatchdogRig> make_rig);
 
 }  // namespace mamori::ports::conformance

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The clocks of Linux as the self tests and the checks of assumptions read them.
+/// The clocks of Linux in the form that the self tests and the checks of assumptions require.
 ///
 ///     ReadingSource reference{get_raw_clock()};
 ///     TickSource tick{clock};  // the FrameClock of the runners
@@ -17,9 +17,9 @@
 
 namespace mamori::ports::posix_rt {
 
-/// A clock of this machine, for the reference usually get_raw_clock(). CLOCK_MONOTONIC and
-/// CLOCK_MONOTONIC_RAW come from one oscillator: their ratio shows what software did to the time line, a
-/// daemon that pulls it or a clock that stands, not a wrong crystal. That takes a clock of another device.
+/// A clock of this computer; as reference, usually get_raw_clock(). CLOCK_MONOTONIC and CLOCK_MONOTONIC_RAW
+/// come from one oscillator. Their ratio shows errors of software, for example a time daemon that adjusts the
+/// rate, or a stopped clock. To detect a wrong oscillator, use a clock of another device as reference.
 ///
 /// Thread safety: any thread. Time: one reading. Memory: a reference, whose object must outlive it.
 class ReadingSource final : public safety::ClockSource {
@@ -31,7 +31,7 @@ class ReadingSource final : public safety::ClockSource {
     const ClockReading& clock_;
 };
 
-/// The time line on which windows open and budgets end.
+/// The time line of the window starts and budgets.
 ///
 /// Thread safety: any thread. Time: one reading. Memory: a reference, whose object must outlive it.
 class TickSource final : public safety::ClockSource {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Runs the windows of one core in real time: each opens at its place on the fixed grid of the frame.
+/// Runs the windows of one core in real time. Each window starts at its planned instant of the schedule.
 ///
 /// @satisfies SWR-PRT-005, SWR-PRT-006, SWR-PRT-007, SWR-PRT-038, SWR-PRT-043, SWR-PRT-047
 ///     Design: docs/design/posix_rt.md#grid
@@ -18,24 +18,23 @@
 
 namespace mamori::ports::posix_rt {
 
-/// What became of the openings so far.
+/// Window instances so far, by outcome.
 struct OpeningCounts {
-    std::uint64_t opened{0U};    ///< all of them
+    std::uint64_t opened{0U};    ///< all window instances
     std::uint64_t overran{0U};   ///< WindowOutcome::kOverrun
     std::uint64_t missed{0U};    ///< WindowOutcome::kMissed
     Duration worst_lateness{0};  ///< from the planned instant to the first reading of the clock after it
 };
 
-/// Listens to a runner, opening by opening: devices that are sampled before a window, a log of its times.
+/// Receives a call before and after each window instance, for example to sample devices or to log times.
 ///
-/// Calling context: the thread that runs the windows, when nothing of the core's windows is under way but
-/// work that was cut off. Implementations must not block; their time delays what comes after.
+/// Calling context: the thread that runs the windows. No window of the core runs then, except work that was
+/// aborted. Implementations must not block: their time delays the window and the windows after it.
 class OpeningObserver {
   public:
-    /// The runner is awake and has read the clock. @param[in] woke first reading of the clock after the
-    /// sleep.
+    /// Called before the window starts. @param[in] woke first reading of the clock after the sleep.
     virtual void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept = 0;
-    /// The window is over, or did not open.
+    /// Called after the window has ended or was skipped.
     virtual void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept = 0;
 
   protected:
@@ -64,31 +63,34 @@ class CoreRunner final {
     CoreRunner(const CoreRunner&) = delete;
     CoreRunner& operator=(const CoreRunner&) = delete;
 
-    /// @param[in] observer must outlive the runner or be replaced; nullptr: none. Not while run() is under
-    /// way.
+    /// @param[in] observer must outlive the runner or be replaced; nullptr: none. Do not call while run()
+    /// runs.
     void set_observer(OpeningObserver* observer) noexcept { observer_ = observer; }
 
-    /// Opens every window whose place lies in the next `frame_count` frames, from the first frame on that
-    /// begins now or later; returns after the last, or soon after request_stop(). Sleeps in between. An
-    /// opening that comes late moves no later one: its instants are those of the grid.
-    /// A table with a connection between two cores and without publication_margin(...) is a contract
-    /// violation: in real time, execution times would decide which values the reader receives.
-    /// @param[in] frame_count > 0, any. The time line ends after 292 years, and every run ends with it.
+    /// Runs all windows of the next `frame_count` major frames. The first major frame is the first one that
+    /// begins now or later. Returns after the last window, or soon after request_stop(). Sleeps between
+    /// windows. A late window does not shift later windows: the schedule fixes their instants. A table with a
+    /// connection between two cores and without publication_margin(...) is a contract violation: in real
+    /// time, execution times would decide which values the reader receives.
+    /// @param[in] frame_count > 0. Each run ends at the end of the time line (292 years).
     void run(std::uint64_t frame_count) noexcept { run(frame_count, clock_.get_now()); }
-    /// The same from the first frame on that begins at `from` or later. A frame that has begun is late.
+    /// Like run(frame_count), but the first major frame is the first one that begins at `from` or later. If
+    /// it has already begun, its windows are late.
     void run(std::uint64_t frame_count, Instant from) noexcept;
-    /// The same without an end of its own: returns after request_stop().
+    /// Like run(frame_count), but returns only after request_stop().
     void run_until_stopped() noexcept { run(kAllFrames); }
 
-    /// No window starts once the current one has ended, in this run and in later ones. The run returns when
-    /// the start of the next window is due. One store to a lock-free word: async-signal-safe.
+    /// After the current window has ended, no window starts, neither in this run nor in later runs. run()
+    /// returns when the start of the next window is due. One store to a lock-free variable:
+    /// async-signal-safe.
     void request_stop() noexcept { request_stop_at(Instant{std::numeric_limits<std::int64_t>::min()}); }
-    /// The same for windows whose planned start is at `instant` or later; earlier ones still start.
+    /// Prevents the start of windows whose planned start is at `instant` or later. Earlier windows still
+    /// start.
     void request_stop_at(Instant instant) noexcept { stop_ns_.store(instant.ns, std::memory_order_relaxed); }
-    /// Takes back a stop that was requested. Not while run() is under way.
+    /// Cancels a requested stop. Do not call while run() runs.
     void resume() noexcept { stop_ns_.store(kNoStop, std::memory_order_relaxed); }
 
-    /// Of all calls of run() so far. To be asked while none is under way.
+    /// Counts over all calls of run(). Do not call while run() runs.
     const OpeningCounts& get_counts() const noexcept { return counts_; }
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The last acts of a process that crashes: outputs closed, a note behind the flight recorder, then the end
-/// that it would have come to anyway, with its status and its core.
+/// Handlers of a crash. They close the outputs, write a crash record after the flight recorder, and then let
+/// the process end as without handlers: with the same status and core file.
 ///
 /// @satisfies SWR-PRT-026, SWR-PRT-027      Design: docs/design/posix_rt.md#crash-handlers
 #ifndef MAMORI_PORTS_POSIX_RT_CRASH_HANDLERS_HPP
@@ -19,26 +19,27 @@
 
 namespace mamori::ports::posix_rt {
 
-/// Signals of a crash. A check of the kernel that fails ends in SIGILL or SIGTRAP, as the processor has it.
+/// Signals of a crash. A failed check of the kernel raises SIGILL or SIGTRAP, depending on the processor.
 inline constexpr std::array<int, 6U> kCrashSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP};
 
-/// What a crash leads to.
+/// Actions after a crash.
 struct CrashPlan {
-    /// Takes torque and brake current away for good: threads that have not crashed may give commands until
-    /// the process is gone. Called in a signal handler, on any thread, at most once: system calls and stores
-    /// only, no lock, no heap, nothing that waits.
+    /// Removes torque and brake current permanently: until the process has ended, other threads can still
+    /// send commands. Called at most once, in a signal handler on any thread. Use system calls and stores
+    /// only: no lock, no heap, no wait.
     void (*close_outputs)(void* context) noexcept;
-    void* context{nullptr};  ///< handed to it
-    /// Mapped file of a flight recorder with room for a note (crash_note.hpp), from its first byte on; empty:
-    /// no note.
+    void* context{nullptr};  ///< argument of close_outputs
+    /// Complete mapped file of a flight recorder with space for a crash record (crash_note.hpp). Empty: no
+    /// crash record.
     Span<std::byte> file{};
-    std::uint32_t session{0U};  ///< of that recorder
+    std::uint32_t session{0U};  ///< session of this recorder
     FrameClock clock;           ///< time line of the session
 };
 
-/// Handlers of this process. A crash or a failed check of a second thread in the meantime waits for the first
-/// to end the process, a second at most; one inside the handlers ends it at once. A crash while another
-/// thread handles a failed check closes the outputs by the plan, and waits for that handler likewise.
+/// Handlers of this process. If a second thread crashes or fails a check meanwhile, it waits at most 1 s
+/// until the first thread has ended the process. A crash inside the handlers ends the process immediately. A
+/// crash while another thread handles a failed check closes the outputs according to the plan and waits at
+/// most 1 s for that handler.
 ///
 /// Calling context: any thread, before the first deadline. Memory: no heap.
 class CrashHandlers final {
@@ -48,17 +49,17 @@ class CrashHandlers final {
     CrashHandlers& operator=(const CrashHandlers&) = delete;
     ~CrashHandlers() { remove(); }
 
-    /// From here on a crash follows the plan. Threads want a CrashStack each, or the end of their stack is
-    /// the end without a plan.
-    /// @param[in] plan close_outputs not nullptr; file empty or a page's begin with room for a note.
+    /// Activates the plan. Each thread needs a CrashStack: without it, a stack overflow of the thread ends
+    /// the process without the actions of the plan.
+    /// @param[in] plan close_outputs not nullptr; file empty, or page-aligned with space for a crash record.
     /// @return kOk; kBadParameter (the plan); kPreconditionNotMet (this process has handlers already).
     Status install(const CrashPlan& plan) noexcept;
-    /// A later crash follows another plan. A plan is in force at each instant. A handler that has begun
-    /// follows the previous plan. Not to be called again while it may.
+    /// Replaces the plan for later crashes. A plan is active at each instant. A handler that has begun uses
+    /// the previous plan; do not call replace() again while such a handler can run.
     /// @return kOk; kBadParameter (the plan); kPreconditionNotMet (not installed).
     Status replace(const CrashPlan& plan) noexcept;
-    /// Signals do again what they did before; without handlers it does nothing. No thread may crash
-    /// meanwhile.
+    /// Restores the previous signal actions. Without handlers, the call has no effect. No thread may crash
+    /// during the call.
     void remove() noexcept;
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a thread is at, so that a crash can be told by its component. The host of the windows notes it before
-/// each step.
+/// Window and component that a thread currently runs, so that a crash record can name them. The platform host
+/// records them before each step.
 ///
 /// @satisfies SWR-PRT-027      Design: docs/design/posix_rt.md#crash-note
 #ifndef MAMORI_PORTS_POSIX_RT_CRASH_PLACE_HPP
@@ -12,23 +12,24 @@
 
 namespace mamori::ports::posix_rt {
 
-/// Places in the system table.
+/// Indices in the system table.
 struct CrashPlace {
     static constexpr std::uint16_t kNone = 0xFFFFU;      ///< no window, no component
-    static constexpr std::uint16_t kWatchdog = 0xFFFEU;  ///< as component: the thread of the watchdog
+    static constexpr std::uint16_t kWatchdog = 0xFFFEU;  ///< value of `component` for the watchdog thread
 
     std::uint16_t window{kNone};
     std::uint16_t component{kNone};
 };
 
-/// Of the calling thread, from here on. One store. @param[in] window, component places in the system table;
-/// what is too large for a note is noted as kNone.
+/// Sets the values of the calling thread. One store.
+/// @param[in] window, component indices in the system table; an index that is too large for a crash record is
+///            recorded as kNone.
 void set_crash_place(std::size_t window, std::size_t component) noexcept;
-/// The calling thread is between two steps, or was never in one.
+/// Records that the calling thread runs no step.
 void clear_crash_place() noexcept;
-/// The calling thread is that of the watchdog.
+/// Records that the calling thread is the watchdog thread.
 void set_crash_place_of_watchdog() noexcept;
-/// Of the calling thread, also from a signal handler.
+/// Values of the calling thread. Async-signal-safe.
 CrashPlace get_crash_place() noexcept;
 
 }  // namespace mamori::ports::posix_rt

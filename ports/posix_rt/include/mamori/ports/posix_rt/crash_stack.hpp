@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A second stack of a thread for the handlers of a crash, since a thread that has used up its own has none
-/// left to run them on.
+/// Alternate signal stack of a thread. After a stack overflow, the crash handlers cannot run on the stack of
+/// the thread.
 ///
 /// @satisfies SWR-PRT-026      Design: docs/design/posix_rt.md#crash-handlers
 #ifndef MAMORI_PORTS_POSIX_RT_CRASH_STACK_HPP
@@ -16,13 +16,13 @@
 
 namespace mamori::ports::posix_rt {
 
-/// Stack of one thread. The threads of windows and of the watchdog have theirs; a thread of the application,
-/// the main one included, takes its own.
+/// Alternate stack of one thread. The threads of windows and of the watchdog have one already. Each other
+/// thread of the application, including the main thread, calls take().
 ///
-/// Calling context: take() and give_back() on the thread that it is for. Memory: kSize, and no heap.
+/// Calling context: take() and give_back() on the thread that uses the stack. Memory: kSize, no heap.
 class CrashStack final {
   public:
-    /// [byte] The registers of a large machine take 11 KiB of it, a handler about one.
+    /// [byte] The registers of a large processor take up to 11 KiB, a handler about 1 KiB.
     static constexpr std::size_t kSize = std::size_t{32U} * 1024U;
 
     constexpr CrashStack() noexcept = default;
@@ -30,10 +30,11 @@ class CrashStack final {
     CrashStack& operator=(const CrashStack&) = delete;
     ~CrashStack() { give_back(); }
 
-    /// @return kOk; kPreconditionNotMet (taken already); kOutOfResources (the registers of this machine do
+    /// @return kOk; kPreconditionNotMet (taken already); kOutOfResources (the registers of this processor do
     ///         not fit).
     Status take() noexcept;
-    /// The thread has again what it had before; without a stack that is taken it does nothing.
+    /// Restores the previous alternate stack of the thread. Without a successful take(), the call has no
+    /// effect.
     void give_back() noexcept;
 
   private:

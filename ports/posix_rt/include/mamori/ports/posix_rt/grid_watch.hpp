@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A second pair of eyes: a thread that neither the runner nor its guard nor their timers can hold up, which
-/// sees that a window did not open or was not over when it should, or that the clock runs at a wrong rate,
-/// and closes the outputs.
+/// Independent schedule monitor. A thread that neither the runner nor its guard nor their timers can delay.
+/// It closes the outputs if a window does not start or end in time, or if the rate of the clock is wrong.
 ///
 /// @satisfies SWR-PRT-031, SWR-PRT-033, SWR-PRT-034, SWR-PRT-040, SWR-PRT-041
 ///     Design: docs/design/posix_rt.md#watch
@@ -27,36 +26,36 @@
 
 namespace mamori::ports::posix_rt {
 
-/// What the runner of one core must have done next, and by when: an atomic instant that it moves on with each
-/// opening and each end of a window.
+/// Due time of the next action of the runner of one core. The runner advances this atomic instant at each
+/// start and end of a window.
 ///
 /// Thread safety: get_due() from any thread; the rest from the thread that runs the windows, expect() and
-///                rest() also before and after it does. Time: O(windows) per opening, no lock, no system
-///                call.
+///                rest() also before and after it runs them. Time: O(windows) per window instance, no lock,
+///                no system call.
 class GridBeat final : public OpeningObserver {
   public:
     /// Nothing is due.
     static constexpr Instant kNever{std::numeric_limits<std::int64_t>::max()};
 
-    /// @param[in] view of the system table; must outlive it. @param[in] core whose runner it listens to.
-    /// @param[in] inner a further listener, which is called first, so that its time counts as the runner's;
-    ///            nullptr: none.
+    /// @param[in] view of the system table; must outlive it. @param[in] core core of the runner.
+    /// @param[in] inner further observer, which is called first, so that its time counts as time of the
+    ///            runner; nullptr: none.
     GridBeat(const SystemView& view, std::size_t core, OpeningObserver* inner = nullptr) noexcept
         : view_(view), core_(core), inner_(inner) {}
     GridBeat(const GridBeat&) = delete;
     GridBeat& operator=(const GridBeat&) = delete;
     ~GridBeat() = default;
 
-    /// The first window at `from` or later must open in time. For a runner that may never come to its first
-    /// one.
+    /// Requires that the first window at `from` or later starts in time. Detects a runner that never starts
+    /// its first window.
     void expect(Instant from) noexcept;
-    /// Nothing is due until the next opening: the run is over, or stopped on purpose.
+    /// Nothing is due until the next window start: the run has ended, or was stopped deliberately.
     void rest() noexcept { due_ns_.store(kNever.ns, std::memory_order_release); }
     Instant get_due() const noexcept { return Instant{due_ns_.load(std::memory_order_acquire)}; }
 
-    /// The window must be over at its planned close.
+    /// The due time becomes the planned end of the window.
     void before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept override;
-    /// The next one must open at its planned instant.
+    /// The due time becomes the planned start of the next window.
     void after_opening(const FrameSchedule::Opening& opening, WindowOutcome outcome) noexcept override;
 
   private:
@@ -68,41 +67,42 @@ class GridBeat final : public OpeningObserver {
 
 enum class GridFault : std::uint8_t {
     kNone,
-    kOverdue,    ///< a window did not open, or was not over, when it was due
-    kFastClock,  ///< the clock of the frames runs too fast beside the reference
-    kSlowClock   ///< too slow, or it stands still
+    kOverdue,    ///< a window did not start or end in time
+    kFastClock,  ///< the frame clock is too fast relative to the reference
+    kSlowClock   ///< the frame clock is too slow, or stopped
 };
 
-/// What was found first.
+/// The first violation found.
 struct GridFinding {
     GridFault fault{GridFault::kNone};
-    std::size_t core{kNoIndex};  ///< of kOverdue: place of its beat
-    Instant due{};               ///< of kOverdue
-    Instant seen{};              ///< frame clock at the look that found it
+    std::size_t core{kNoIndex};  ///< for kOverdue: index of the beat
+    Instant due{};               ///< for kOverdue: due time
+    Instant seen{};              ///< frame clock at the poll that found the violation
 };
 
 struct GridLimits {
-    /// From the instant at which something is due until it counts as overdue, >= 0.
+    /// Permitted time after the due time, >= 0.
     Duration lateness{};
-    /// From one look to the next, > 0. What is overdue is found within `lateness` + `period` after it was
-    /// due, and the wake-up of the watch.
+    /// Time between two polls, > 0. An overdue action is found within `lateness` + `period` + wake-up time of
+    /// the watch after its due time.
     Duration period{};
     RateLimits rate{};
 };
 
-/// Judges, look by look. Pure but for what it remembers of the clocks.
+/// Evaluates beats and clocks at each poll. Its only state is that of the clock comparison.
 ///
 /// Thread safety: none. Time: O(beats). Memory: refers to the beats.
 class GridCheck final {
   public:
-    /// @param[in] beats one per core that is watched; must outlive it. @param[in] limits in their ranges.
+    /// @param[in] beats one per supervised core; must outlive it. @param[in] limits in their ranges.
     GridCheck(Span<const GridBeat> beats, const GridLimits& limits) noexcept;
 
-    /// @param[in] pair both clocks, read before this call: a beat that comes in between is in time.
-    /// @return what is wrong, the rate of the clock first, since nothing else can be judged without it; or
-    ///         kNone.
+    /// @param[in] pair both clocks, read before this call, so that a beat after the reading counts as in
+    /// time.
+    /// @return the violation, or kNone. A wrong clock rate has priority, because the other checks depend on
+    ///         the clock.
     GridFinding look(const ClockPair& pair) noexcept;
-    /// Whole spans since the last finding, 0 when there was none yet.
+    /// Complete spans since the last finding; 0 if there was no finding yet.
     std::uint32_t get_sound_spans() const noexcept { return rate_.get_sound_spans(); }
 
   private:
@@ -113,23 +113,24 @@ class GridCheck final {
 
 /// Closes the outputs of the application.
 struct OutputGate {
-    /// Called on the thread of the watch, once for each finding that is latched. Must not block: whoever it
-    /// would wait for may be what hangs.
+    /// Called on the thread of the watch, once per latched finding. Must not block: the thread that it waits
+    /// for could be the hanging one.
     void (*close)(void* argument) noexcept {nullptr};
     void* argument{nullptr};
 };
 
-/// The thread that looks. A finding is latched and closes the outputs once; only reset() ends that.
+/// Thread that polls a GridCheck. A finding is latched and closes the outputs once. Only reset() clears it.
 ///
 /// Thread safety: open(), close(), reset() and get_finding() from one thread; is_latched() and
 ///                get_look_count() from any.
-/// Time:          one wake-up of its thread per period, O(beats) each; it takes no lock that anyone else has.
-/// Memory:        none of its own but the thread's stack, taken in open().
+/// Time:          one wake-up of its thread per period, O(beats) each; it shares no lock with other threads.
+/// Memory:        only the stack of the thread, allocated in open().
 class GridWatch final {
   public:
     /// @param[in] beats one per core; must outlive it. @param[in] clock of the frames; must outlive it.
-    /// @param[in] reference must outlive it; whose rate `clock` should have. @param[in] gate with a function.
-    /// @param[in] place priority above that of the runners, and where there is one, a processor of its own.
+    /// @param[in] reference clock with the correct rate; must outlive it.
+    /// @param[in] gate `close` not nullptr.
+    /// @param[in] place priority above that of the runners; preferably a separate processor.
     GridWatch(Span<const GridBeat> beats, const FrameClock& clock, const ClockReading& reference,
               const GridLimits& limits, const OutputGate& gate, ThreadPlace place) noexcept;
     GridWatch(const GridWatch&) = delete;
@@ -137,23 +138,24 @@ class GridWatch final {
     ~GridWatch() = default;
 
     /// Starts the thread. @return kOk; kPreconditionNotMet (open already); kOutOfResources (no more threads);
-    ///         kBadParameter (the calling thread has a fixed priority that the watch is not above: the watch
-    ///         could not run while this thread hangs).
+    ///         kBadParameter (priority not above the fixed priority of the calling thread: the watch could
+    ///         not run while this thread hangs).
     Status open() noexcept;
-    /// Ends the thread within a period; a finding stays latched. Nothing happens when it is not open.
+    /// Ends the thread within one period. A finding stays latched. If the watch is not open, the call has no
+    /// effect.
     void close() noexcept;
 
     bool is_latched() const noexcept { return is_latched_.load(std::memory_order_acquire); }
     /// @return the latched finding; kNone without one.
     GridFinding get_finding() const noexcept { return is_latched() ? finding_ : GridFinding{}; }
-    /// Watches anew after a finding. Whether the outputs open again is the caller's decision.
-    /// @return kOk; kPreconditionNotMet (nothing is latched, or something was wrong less than a whole span of
-    ///         the rate limits ago).
+    /// Clears the finding and resumes monitoring. The caller decides whether to open the outputs again.
+    /// @return kOk; kPreconditionNotMet (no finding is latched, or the last violation is less than a complete
+    ///         span of the rate limits ago).
     Status reset() noexcept;
 
-    /// Looks so far; stands still when the watch itself does. For whoever services a hardware watchdog.
+    /// Polls so far. Stops increasing if the watch hangs: check it before the service of a hardware watchdog.
     std::uint64_t get_look_count() const noexcept { return look_count_.load(std::memory_order_relaxed); }
-    /// Priority and processor of the thread, as open() got them.
+    /// Result of the request for priority and processor in open().
     Right get_right() const noexcept { return right_; }
 
   private:
@@ -172,7 +174,7 @@ class GridWatch final {
     pthread_t thread_{};
     std::atomic<std::uint64_t> look_count_{0U};
     std::atomic<bool> is_latched_{false};
-    std::atomic<bool> is_sound_{false};  ///< of what is latched: nothing was wrong for a span
+    std::atomic<bool> is_sound_{false};  ///< no violation for a span after the latched one
     std::atomic<bool> is_ending_{false};
     bool is_open_{false};
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A file of fixed size in the memory of the process: what is stored there outlives the process, however it
-/// ends.
+/// A memory-mapped file of fixed size. Stored data is retained after the end of the process, also after a
+/// crash.
 ///
 /// @satisfies SWR-REC-010      Design: docs/design/recorder.md#mapped-file
 #ifndef MAMORI_PORTS_POSIX_RT_MAPPED_FILE_HPP
@@ -18,15 +18,15 @@ namespace mamori::ports::posix_rt {
 /// Why a file was not mapped.
 enum class MappedFileError : std::uint8_t {
     kNone,
-    kCannotOpen,     ///< no such folder, no permission, read-only folder or file
-    kNotRegular,     ///< a folder, a device or a pipe
-    kInUse,          ///< another MappedFile, here or in another process, has it
-    kWrongSize,      ///< the file has another size, and is left as it is
-    kCannotReserve,  ///< no space on the device, or a larger file than the limits allow
-    kCannotMap,      ///< the system refuses the mapping
+    kCannotOpen,     ///< folder does not exist, permission missing, or folder or file is read-only
+    kNotRegular,     ///< path is a folder, a device or a pipe
+    kInUse,          ///< another MappedFile of this or another process uses the file
+    kWrongSize,      ///< the file has another size; it is not changed
+    kCannotReserve,  ///< no space on the device, or the file exceeds the limits
+    kCannotMap,      ///< the system rejects the mapping
 };
 
-/// A sentence for the user; never nullptr.
+/// Message for the user; never nullptr.
 const char* describe(MappedFileError error) noexcept;
 
 /// Owner of one mapping and of the lock on its file; both end with it.
@@ -40,28 +40,27 @@ class MappedFile final {
     MappedFile(const MappedFile&) = delete;
     MappedFile& operator=(const MappedFile&) = delete;
 
-    /// Maps the file at `path`. One that is not there, or is empty, gets its size, filled with zeros.
-    /// @param[in] path not nullptr. @param[in] size of the file [byte], from 1 on.
+    /// Maps the file at `path`. A missing or empty file is created with `size` zero bytes.
+    /// @param[in] path not nullptr. @param[in] size size of the file [byte], from 1.
     /// @return kOk; kBadParameter (path or size); kPreconditionNotMet (open already); kOutOfResources
     /// (kCannotReserve,
-    ///         kCannotMap); kError (every other cause): get_error() and get_system_error() tell it, and no
-    ///         file is left that was not there.
+    ///         kCannotMap); kError (every other cause). get_error() and get_system_error() return the cause.
+    ///         On failure, no new file remains.
     Status open(const char* path, std::size_t size) noexcept;
-    /// Ends mapping and lock; without an open file it does nothing.
+    /// Ends mapping and lock. Without an open file, the call has no effect.
     void close() noexcept;
 
     bool is_open() const noexcept { return data_ != nullptr; }
     /// The bytes of the file; empty while closed. Valid until close().
     Span<std::byte> get_region() const noexcept { return {data_, size_}; }
 
-    /// Waits until the device holds what was stored, for the sake of a loss of power; a crash does not need
-    /// it.
+    /// Waits until the device has stored the data. Protects against a power loss; not necessary for a crash.
     /// @return kOk; kPreconditionNotMet (closed); kError (the device failed).
     Status flush() noexcept;
 
-    /// Cause of the last open() that failed; kNone before it, and after one that did not.
+    /// Cause of the failure of the last open(); kNone if it succeeded or was not called.
     MappedFileError get_error() const noexcept { return error_; }
-    /// `errno` behind it; 0 where the system had no objection.
+    /// `errno` of this failure; 0 if no system call failed.
     int get_system_error() const noexcept { return system_error_; }
 
   private:

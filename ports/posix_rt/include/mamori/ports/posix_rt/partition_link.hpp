@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The two ends of a connection between processes, as components of the system tables on either side: what
-/// arrives at the sender's input leaves, as a frame, and comes out of the receiver. It is a grey channel: the
-/// receiver's side must judge age and content by itself.
+/// The two ends of a connection between processes, as components of the two system tables: the sender writes
+/// its input value into a message, and the receiver writes the value of the message to its output. The
+/// connection is a black channel (IEC 61784-3): the receiving program must check age and content.
 ///
 /// @satisfies SWR-PRT-013, SWR-PRT-014, SWR-PRT-018      Design: docs/design/posix_rt.md#partitions
 #ifndef MAMORI_PORTS_POSIX_RT_PARTITION_LINK_HPP
@@ -21,18 +21,18 @@
 
 namespace mamori::ports::posix_rt {
 
-/// Byte order of every frame.
+/// Byte order of each message.
 inline constexpr ByteOrder kFrameOrder = ByteOrder::kLittle;
 
-/// Sends what is new at its input, under the instant at which it was published. Values that a window
-/// publishes and then takes back, since it overran, must not leave: give the sender a window of its own.
+/// Sends each new input value with its publication instant. Run the sender in its own window: the executive
+/// discards the values of a window that overruns, but it cannot withdraw a message that was sent.
 ///
 /// Thread safety: none; runs in its window. Time: O(sizeof(T)). Memory: one encoded T.
 template <typename T>
 class PartitionSender final : public Component {
   public:
     static constexpr std::size_t kCapacity = max_encoded_size<T>();
-    static_assert(kCapacity <= kFrameCapacityMax, "this payload does not fit into a frame");
+    static_assert(kCapacity <= kFrameCapacityMax, "this payload does not fit into a message");
 
     /// @param[in] writer opened with kCapacity before the executive is initialised; must have static storage.
     constexpr PartitionSender(const char* name, FrameWriter& writer) noexcept
@@ -45,8 +45,8 @@ class PartitionSender final : public Component {
     Status on_initialize() noexcept override {
         return writer_.get_capacity() == kCapacity ? Status::kOk : Status::kPreconditionNotMet;
     }
-    /// @return kOk; kBadParameter (an enumeration of the value holds none of its enumerators: it does not
-    ///         leave).
+    /// @return kOk; kBadParameter (an enumeration of the value has a number that is not an enumerator; the
+    ///         value is not sent).
     Status on_execute(ContextHandle) noexcept override {
         if (!in.is_new()) {
             return Status::kOk;
@@ -63,11 +63,11 @@ class PartitionSender final : public Component {
     std::array<std::byte, kCapacity> buffer_{};
 };
 
-/// Receives the newest frame. `out` gets nothing when nothing good came, so the age of what it gave before
-/// goes on growing at whoever reads it; `news` tells about every cycle.
+/// Receives the newest message. `out` is written for valid messages only, so without them the age of its last
+/// value continues to grow for its readers. `news` is written in each cycle.
 ///
-/// Thread safety: none; runs in its window. Time: O(sizeof(T)), bounded whatever the other process does, no
-/// system call. Memory: one T and one encoded T.
+/// Thread safety: none; runs in its window. Time: O(sizeof(T)), bounded for any behaviour of the other
+/// process, no system call. Memory: one T and one encoded T.
 template <typename T>
 class PartitionReceiver final : public Component {
   public:
@@ -75,7 +75,8 @@ class PartitionReceiver final : public Component {
 
     /// @param[in] reader   opened with kCapacity before the executive is initialised; must have static
     /// storage.
-    /// @param[in] lead_max how far the instant of a message may be after now, >= 0; a later one is malformed.
+    /// @param[in] lead_max maximum time from now to the instant of a message, >= 0; a message with a later
+    /// instant is malformed.
     constexpr PartitionReceiver(const char* name, FrameReader& reader, Duration lead_max = {}) noexcept
         : Component(name), reader_(reader), lead_max_(lead_max) {}
 
@@ -87,13 +88,13 @@ class PartitionReceiver final : public Component {
     Status on_initialize() noexcept override {
         return reader_.get_capacity() == kCapacity ? Status::kOk : Status::kPreconditionNotMet;
     }
-    /// Drops the message of an earlier run, which would come out as new. @return kOk.
+    /// Discards a message of an earlier run, which would count as new. @return kOk.
     Status on_startup(ContextHandle) noexcept override {
         FrameFacts facts{};
         static_cast<void>(reader_.take({buffer_.data(), buffer_.size()}, facts));
         return Status::kOk;
     }
-    /// @return kOk, whatever came.
+    /// @return kOk, for any message.
     Status on_execute(ContextHandle context) noexcept override {
         FrameFacts facts{};
         FrameOutcome outcome = reader_.take({buffer_.data(), buffer_.size()}, facts);
@@ -111,7 +112,8 @@ class PartitionReceiver final : public Component {
 
   private:
     static constexpr std::uint32_t kRefusedMax = 0xFFFFFFFFU;
-    /// Instants beyond this, 73 years, are none; nearer ones can be subtracted.
+    /// Instants beyond this limit (73 years) are invalid. The difference of two valid instants cannot
+    /// overflow.
     static constexpr std::int64_t kFarthest = std::int64_t{1} << 61U;
 
     bool accept(const FrameFacts& facts, Instant now) noexcept {

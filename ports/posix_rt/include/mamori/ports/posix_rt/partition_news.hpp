@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a receiver of frames tells about each of its cycles: the facts from which silence, floods and old
-/// messages are judged.
+/// Reception status of a receiver in each cycle. The supervision uses it to detect missing, too many and old
+/// messages.
 ///
 /// @satisfies SWR-PRT-013      Design: docs/design/posix_rt.md#partitions
 #ifndef MAMORI_PORTS_POSIX_RT_PARTITION_NEWS_HPP
@@ -15,13 +15,13 @@
 
 namespace mamori::ports::posix_rt {
 
-/// What a receiver has to say about each of its cycles, for whoever supervises the other partition.
+/// Reception status of one cycle, for the component that supervises the other partition.
 struct PartitionNews {
     FrameOutcome outcome{FrameOutcome::kNothingNew};
-    std::uint64_t number{0U};   ///< of the last good frame; 0: there was none
-    std::uint64_t skipped{0U};  ///< by its number, frames since the good one before that were not; kNew only
-    std::int64_t age_ns{0};     ///< from the publication in the other partition to this cycle; kNew only
-    std::uint32_t refused{0U};  ///< torn and malformed ones so far; held at the largest number
+    std::uint64_t number{0U};   ///< number of the last valid message; 0: none
+    std::uint64_t skipped{0U};  ///< messages missed since the previous valid one; kNew only
+    std::int64_t age_ns{0};     ///< time from publication in the other partition; kNew only
+    std::uint32_t refused{0U};  ///< torn and malformed messages so far; saturates
 };
 
 }  // namespace mamori::ports::posix_rt

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Output of a process of less trust, line by line and with its name before each line, so that a reader of
-/// one log tells the lines of several partitions and of the safety process apart.
+/// Forwards the output of an untrusted process line by line, each with the name of the process, so that a
+/// common log distinguishes the lines of several partitions and of the safety process.
 ///
 /// @satisfies SWR-PRT-062      Design: docs/design/posix_rt.md#partition-output
 #ifndef MAMORI_PORTS_POSIX_RT_PARTITION_OUTPUT_HPP
@@ -15,51 +15,51 @@
 
 namespace mamori::ports::posix_rt {
 
-/// A pipe for each of the two streams of one partition, which stays open when the partition is started again.
+/// One pipe for each of the two streams of a partition. The pipes stay open when the partition is restarted.
 ///
 /// Calling context: an ordinary thread, never a window. Thread safety: none.
-/// Time:            no function waits for the partition. forward() waits for its targets, as each writer
-/// does.
-///                  It takes at most kForwardMax bytes of each stream, so its time is bounded in a flood.
-///                  While no thread calls forward(), the partition waits as soon as its pipe is full.
+/// Time:            no function waits for the partition. forward() can block in write() to its targets. It
+/// reads at most kForwardMax bytes of each stream, so a flood does not prolong it further. While no thread
+/// calls forward(), the partition blocks as soon as its pipe is full.
 /// Memory:          one line per stream; no heap.
 class PartitionOutput final {
   public:
-    static constexpr std::size_t kNameMax = 32U;         ///< characters of the name; the rest is left out
-    static constexpr std::size_t kLineMax = 512U;        ///< characters of a line; the rest is the next line
+    static constexpr std::size_t kNameMax = 32U;         ///< characters of the name; further ones are omitted
+    static constexpr std::size_t kLineMax = 512U;        ///< characters per line; the rest is the next line
     static constexpr std::size_t kForwardMax = 65'536U;  ///< bytes of each stream per call
 
-    /// @param[in] name goes before each line: `[name] text`.
+    /// @param[in] name prefix of each line: `[name] text`.
     explicit PartitionOutput(const char* name) noexcept;
     PartitionOutput(const PartitionOutput&) = delete;
     PartitionOutput& operator=(const PartitionOutput&) = delete;
-    /// A partition that still runs gets SIGPIPE when it writes afterwards.
+    /// A partition that writes afterwards receives SIGPIPE.
     ~PartitionOutput();
 
-    /// @return kOk; kPreconditionNotMet (open); kOutOfResources (no descriptors).
+    /// @return kOk; kPreconditionNotMet (open); kOutOfResources (no free descriptors).
     Status open() noexcept;
 
     /// For PartitionOrder::output and PartitionOrder::errors; -1 until open().
     int get_output() const noexcept { return streams_[0U].writing; }
     int get_errors() const noexcept { return streams_[1U].writing; }
 
-    /// Writes all lines that are complete, each with one call of write(). Control characters become '?',
-    /// since a partition could change the lines of others by them; tabs stay, carriage returns are left out.
-    /// A target whose reader has ended raises SIGPIPE in this process: ignore this signal.
-    /// @param[in] output, errors descriptors, STDOUT_FILENO and STDERR_FILENO for example; both may be one.
-    /// @return bytes that were read; 0: there was nothing.
+    /// Writes all complete lines, each with one call of write(). Replaces control characters by '?', since
+    /// they could change lines of other processes on a terminal; keeps tabs and omits carriage returns. A
+    /// target whose reader has ended raises SIGPIPE in this process: ignore this signal.
+    /// @param[in] output, errors descriptors, for example STDOUT_FILENO and STDERR_FILENO; both may be equal.
+    /// @return bytes read; 0: no output available.
     std::size_t forward(int output, int errors) noexcept;
-    /// The same, and then the lines that are not complete: after PartitionProcess::check() told the end.
+    /// Like forward(), and also writes incomplete lines. Call it after PartitionProcess::check() has reported
+    /// the end.
     std::size_t forward_rest(int output, int errors) noexcept;
 
-    /// Lines that a target did not take.
+    /// Lines that a target did not accept.
     std::uint64_t get_lost_count() const noexcept { return lost_count_; }
 
   private:
     struct Stream {
         int reading{-1};
         int writing{-1};
-        std::size_t size{0U};  ///< of the line so far, prefix included
+        std::size_t size{0U};  ///< size of the line so far, including the prefix
         std::array<char, kNameMax + 3U + kLineMax + 1U> line{};
     };
 

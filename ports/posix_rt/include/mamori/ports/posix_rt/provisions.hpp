@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What assumptions of use ask of Linux, each answered from where it takes effect: the scheduler, the memory,
-/// the processor, the watchdog. None of them believes what was asked for at the start.
+/// Platform properties of Linux that assumptions of use require. Each is read where it takes effect: from the
+/// scheduler, the memory, the processor or the watchdog, not from the settings requested at the start.
 ///
 /// @satisfies SWR-AOU-011, SWR-AOU-012, SWR-AOU-013, SWR-AOU-014, SWR-AOU-015, SWR-AOU-016
 /// Design:   docs/design/assumptions.md#linux
@@ -21,11 +21,12 @@
 
 namespace mamori::ports::posix_rt {
 
-/// A provision that tells "it is not" from "nobody can say", for the sentence that the user reads. To an
-/// assumption both are alike: not in effect.
+/// Platform property that distinguishes "not in effect" from "not known" for the message to the user. An
+/// assumption treats both as not in effect.
 class LinuxProvision : public safety::Provision {
   public:
-    /// @return kOk (in effect); kPreconditionNotMet (it is not); kUnsupported (the system does not say).
+    /// @return kOk (in effect); kPreconditionNotMet (not in effect); kUnsupported (the system does not report
+    ///         it).
     virtual Status look() noexcept = 0;
     bool is_in_effect() noexcept final { return look() == Status::kOk; }
 
@@ -33,29 +34,30 @@ class LinuxProvision : public safety::Provision {
     ~LinuxProvision() = default;
 };
 
-/// All memory of the process is locked: none of its pages has to be fetched in a window.
+/// All memory of the process is locked, so that no window waits for a page.
 ///
-/// Thread safety: look() from one thread at a time. Time: open() opens a file; look() reads it, up to three
-/// times, some ten microseconds each: Linux writes it anew. Memory: 4 KiB of the stack in look().
+/// Thread safety: look() from one thread at a time. Time: open() opens a file; look() reads it up to three
+/// times, some ten microseconds each, since Linux generates it for each reading. Memory: 4 KiB of the stack
+/// in look().
 class MemoryLocked final : public LinuxProvision {
   public:
     static constexpr std::uint64_t kKernelBytes = 65536U;
 
-    /// @param[in] unlockable mappings that Linux never locks [byte]: its own (vdso), and memory of devices
-    /// and
-    ///            huge pages, which the application knows.
+    /// @param[in] unlockable size of mappings that Linux never locks [byte]: those of the kernel (vdso), and
+    /// device memory and huge pages, which the application knows.
     explicit constexpr MemoryLocked(std::uint64_t unlockable = kKernelBytes) noexcept
         : unlockable_(unlockable) {}
     MemoryLocked(const MemoryLocked&) = delete;
     MemoryLocked& operator=(const MemoryLocked&) = delete;
     ~MemoryLocked();
 
-    /// Before the windows run. @return kOk; kPreconditionNotMet (open already); kUnsupported (no /proc here).
+    /// Call it before the windows run.
+    /// @return kOk; kPreconditionNotMet (open already); kUnsupported (no /proc).
     Status open() noexcept;
 
-    /// In effect: what is mapped is locked but for `unlockable`, and nothing is swapped out.
-    /// @return as any; kUnsupported while not open, and for a file without these figures in its first 4 KiB,
-    ///         as of a user in hundreds of groups.
+    /// In effect if all mapped memory except `unlockable` is locked, and no page is swapped out.
+    /// @return as LinuxProvision; kUnsupported also while not open, and if the first 4 KiB of the file lack
+    ///         these figures (a user in hundreds of groups).
     Status look() noexcept override;
 
   private:
@@ -63,49 +65,49 @@ class MemoryLocked final : public LinuxProvision {
     int file_{-1};
 };
 
-/// Timers end to the microsecond, not to the tick of the kernel (1 to 10 ms): without them no window opens
-/// and no budget ends when it should.
+/// High-resolution timers: they expire within microseconds, not at the next tick of the kernel (1 to 10 ms).
+/// Without them, windows start late and budgets end late.
 ///
-/// Thread safety: any thread. Time: one system call. Memory: a word.
+/// Thread safety: any thread. Time: one system call. Memory: one integer.
 class PreciseTimers final : public LinuxProvision {
   public:
-    /// @param[in] clock behind the time line; another one than Linux's monotonic clock is for tests.
+    /// @param[in] clock clock of the time line; clocks other than CLOCK_MONOTONIC are for tests.
     explicit constexpr PreciseTimers(clockid_t clock = CLOCK_MONOTONIC) noexcept : clock_(clock) {}
-    /// @return as any; kUnsupported when the clock does not tell its resolution.
+    /// @return as LinuxProvision; kUnsupported if the clock does not report its resolution.
     Status look() noexcept override;
 
   private:
     clockid_t clock_;
 };
 
-/// The floating-point unit rounds to nearest and keeps denormal numbers **on the calling thread**, which is
-/// where Linux keeps its mode; so ask on the thread that calculates. The operations of the unit are the
-/// business of safety::CpuCheck.
+/// The floating-point unit rounds to nearest and keeps denormal numbers **on the calling thread**. Linux
+/// stores this mode per thread, so call look() on the thread that calculates. safety::CpuCheck tests the
+/// operations of the unit.
 ///
-/// Thread safety: any thread. Time: some operations. Memory: none.
+/// Thread safety: any thread. Time: a few floating-point operations. Memory: none.
 class FloatingPointMode final : public LinuxProvision {
   public:
     /// @return kOk; kPreconditionNotMet.
     Status look() noexcept override;
 };
 
-/// The guard of budgets can stop the caller: its thread, the one that runs the windows, has a fixed priority
-/// above that of the caller's thread, which does the work of a window.
+/// The guard of the budgets can preempt the work of a window: the thread that runs the windows has a fixed
+/// priority above that of the calling thread, which does the work.
 ///
-/// Thread safety: any thread. Time: two system calls. Memory: a word.
+/// Thread safety: any thread. Time: two system calls. Memory: one integer.
 class GuardAbove final : public LinuxProvision {
   public:
-    /// Called by the thread that runs the windows, before it does: CoreRunner's.
+    /// Call it on the thread of the CoreRunner, before it runs the windows.
     void set_guard() noexcept;
-    /// @return as any; kPreconditionNotMet also before set_guard() and when that thread has ended;
-    ///         kUnsupported when the system lets nobody ask.
+    /// @return as LinuxProvision; kPreconditionNotMet also before set_guard() and after that thread has
+    ///         ended; kUnsupported if the system denies the query.
     Status look() noexcept override;
 
   private:
     std::atomic<pid_t> guard_{0};
 };
 
-/// The software watchdog is armed: it was served, has not expired and is not closed.
+/// The software watchdog is armed: it was serviced, has not expired and is not closed.
 ///
 /// Thread safety: any thread. Time: one reading of the clock. Memory: a reference.
 class SoftwareWatchdogArmed final : public LinuxProvision {
@@ -120,16 +122,16 @@ class SoftwareWatchdogArmed final : public LinuxProvision {
     const SoftwareWatchdog& watchdog_;
 };
 
-/// The machine's watchdog counts down. Wants a timeout of 2 s or more: devices count whole seconds, and 0
-/// left is taken for one that stands.
+/// The watchdog device of the computer counts down. Requires a timeout of at least 2 s: devices count in
+/// seconds, and a remaining time of 0 counts as stopped.
 ///
-/// Thread safety: not beside open() and disarm() of the device. Time: one system call, that of a driver.
+/// Thread safety: not concurrently with open() and disarm() of the device. Time: one system call of a driver.
 class DeviceWatchdogArmed final : public LinuxProvision {
   public:
     /// @param[in] device must outlive this object.
     explicit constexpr DeviceWatchdogArmed(const WatchdogDevice& device) noexcept : device_(device) {}
-    /// @return as any; kUnsupported when the driver does not tell the time that is left, as many do not: then
-    ///         the assumption is one of the integrator.
+    /// @return as LinuxProvision; kUnsupported if the driver does not report the remaining time, as many do
+    ///         not. Then the integrator must show that the assumption holds.
     Status look() noexcept override;
 
   private:

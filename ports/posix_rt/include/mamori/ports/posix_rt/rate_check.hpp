@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Compares two clocks that should run alike: whoever of the two is fast, slow or stands still, their
-/// distance grows.
+/// Compares the rates of two clocks. If one clock is fast, slow or stopped, the difference of their readings
+/// grows.
 ///
 /// @satisfies SWR-PRT-032      Design: docs/design/posix_rt.md#watch
 #ifndef MAMORI_PORTS_POSIX_RT_RATE_CHECK_HPP
@@ -19,41 +19,42 @@ namespace mamori::ports::posix_rt {
 struct ClockPair {
     Instant watched{};
     std::int64_t reference_ns{0};
-    /// The watched clock was read within so much of `reference_ns`, before or after it; >= 0.
+    /// Maximum time between the readings of the two clocks, in either direction; >= 0.
     Duration uncertainty{};
 };
 
-/// Reads both: the reference before and after the watched clock, up to three times, and takes the narrowest.
+/// Reads both clocks: the reference before and after the watched clock, up to three times. Returns the pair
+/// with the smallest uncertainty.
 ClockPair read_pair(const FrameClock& watched, const ClockReading& reference) noexcept;
 
-/// How far the clocks may come apart.
+/// Permitted deviation of the clocks.
 struct RateLimits {
-    /// Time over which they are compared, > 0; afterwards the comparison begins anew, so that small
-    /// differences do not add up over a day.
+    /// Time of one comparison, > 0. Then the comparison restarts, so that small differences do not accumulate
+    /// over a day.
     Duration span{};
-    /// Difference of their rates [1e-6], > 0. Over a whole span a greater one is found.
+    /// Permitted difference of the rates [1e-6], > 0. A greater difference during a complete span is found.
     std::int64_t limit_ppm{0};
 };
 
 enum class Rate : std::uint8_t {
-    kSound,  ///< as far as the readings tell: a wide uncertainty proves little
-    kFast,   ///< the watched clock gained more on the reference than a span at the limit allows
-    kSlow    ///< it lost more
+    kSound,  ///< no deviation shown; a large uncertainty can hide one
+    kFast,   ///< the watched clock is ahead by more than a span at the limit permits
+    kSlow    ///< the watched clock is behind by more than that
 };
 
-/// A deviation that is greater than the limit for two spans is found by the end of the second one; the
-/// greater it is, the sooner. What the readings leave uncertain counts for the clock.
+/// A deviation above the limit for two spans is found by the end of the second span, a larger deviation
+/// earlier. The uncertainty of the readings counts in favour of the watched clock.
 ///
-/// Thread safety: none. Time: O(1). Memory: five words.
+/// Thread safety: none. Time: O(1). Memory: 48 bytes.
 class RateCheck final {
   public:
     constexpr explicit RateCheck(const RateLimits& limits) noexcept : limits_(limits) {}
 
-    /// Judges one reading. The first one after the construction, after restart() and after a verdict other
-    /// than kSound only begins a span.
+    /// Evaluates one reading. The first reading after the construction, after restart() and after a verdict
+    /// other than kSound only begins a span.
     Rate look(const ClockPair& pair) noexcept;
     void restart() noexcept;
-    /// Whole spans without a finding since then.
+    /// Complete spans without a finding since then.
     std::uint32_t get_sound_spans() const noexcept { return sound_spans_; }
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a process asks of Linux to keep its times: a fixed priority, a processor, memory that stays in place.
-/// Each may be refused; the process goes on, and what was refused goes into the evidence.
+/// Real-time privileges of a process: fixed priority, processor and locked memory. Linux can deny each of
+/// them. The process then continues, and the evidence states which privilege was denied.
 ///
 /// @satisfies SWR-PRT-002, SWR-PRT-037, SWR-PRT-040, SWR-PRT-046, SWR-PRT-060
 ///     Design: docs/design/posix_rt.md#rights, docs/design/posix_rt.md#stacks
@@ -16,13 +16,15 @@
 
 namespace mamori::ports::posix_rt {
 
-/// A right that was asked for. `system_error` is the `errno` of the refusal, 0 when it was granted.
+/// Result of a request for a privilege. `system_error` is the `errno` of a denial, 0 if the privilege was
+/// granted.
 struct Right {
     bool is_granted{false};
     int system_error{0};
 };
 
-/// Of two rights that are needed together: granted only when both are, else the first refusal.
+/// Combines two privileges that are required together.
+/// @return granted if both are granted, else the first denial.
 constexpr Right combine(const Right& first, const Right& second) noexcept {
     return first.is_granted ? second : first;
 }
@@ -36,7 +38,7 @@ inline constexpr std::size_t kThreadStackMin{std::size_t{32U} * 1024U};
 /// frame is larger than a page.
 inline constexpr std::size_t kThreadStackGuard{std::size_t{64U} * 1024U};
 
-/// Where a thread shall run, and on how much stack.
+/// Scheduling and stack size of a thread.
 struct ThreadPlace {
     static constexpr int kAnyProcessor = -1;
 
@@ -47,8 +49,8 @@ struct ThreadPlace {
     std::size_t stack_size{kThreadStack};
 };
 
-/// Gives a thread a fixed priority (SCHED_FIFO). @param[in] priority 0: it gets the ordinary policy back.
-/// @return refused without the right for it (EPERM), or for a priority that Linux does not have (EINVAL).
+/// Gives a thread a fixed priority (SCHED_FIFO). @param[in] priority 0: the thread gets SCHED_OTHER.
+/// @return denied without the privilege (EPERM) and for an invalid priority (EINVAL).
 Right set_priority(pthread_t thread, int priority) noexcept;
 
 /// Lets a thread run only while no thread of another policy wants its processor (SCHED_IDLE).
@@ -62,7 +64,7 @@ bool may_leave_idle() noexcept;
 ///         call, so a priority that another process has changed counts as well.
 int get_own_priority() noexcept;
 
-/// What a thread was given of its ThreadPlace. `priority` is granted for priority 0 too.
+/// Privileges that a thread got of its ThreadPlace. `priority` is granted for priority 0 too.
 struct ThreadRights {
     Right priority{};
     Right processor{};
@@ -74,16 +76,18 @@ struct ThreadRights {
 Status start_thread(pthread_t& thread, void* (*run)(void*), void* argument, ThreadPlace place,
                     ThreadRights& rights) noexcept;
 
-/// Binds a thread to one processor. @return refused when there is none of that number, or it is not ours
-/// (EINVAL); granted for kAnyProcessor, which changes nothing: a new thread has the processors of its opener.
+/// Binds a thread to one processor.
+/// @return denied if the processor does not exist or is not permitted for this process (EINVAL); granted for
+///         kAnyProcessor, which changes nothing: a new thread has the processors of the thread that started
+///         it.
 Right set_processor(pthread_t thread, int processor) noexcept;
 
-/// Locks all memory of the process, now and later, and touches `stack_size` bytes of the stack of the caller,
-/// so that no page has to be fetched in a window.
+/// Locks all current and future memory of the process and touches `stack_size` bytes of the stack of the
+/// caller, so that no window waits for a page.
 /// @param[in] stack_size [byte] at most 1 MiB is touched, and never more than the stack of the caller has
 /// left.
-/// @return refused without the right for that much memory and 64 MiB more, which the stacks of threads that
-/// are started later take (EPERM, ENOMEM); then nothing is locked.
+/// @return denied (EPERM, ENOMEM) if the limit permits less than this memory plus 64 MiB for stacks of later
+///         threads; then nothing is locked.
 Right lock_memory(std::size_t stack_size) noexcept;
 
 }  // namespace mamori::ports::posix_rt

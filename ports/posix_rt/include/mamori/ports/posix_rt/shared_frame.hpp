@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One-way transport of bounded frames through memory that two processes share. One writes and takes no
-/// notice of the reader; the other reads, only reads, and believes nothing of what it finds there.
+/// One-way transport of messages of bounded size through memory that two processes share. The writer never
+/// waits for the reader. The reader has read access only and validates all data.
 ///
 /// @satisfies SWR-PRT-010, SWR-PRT-011      Design: docs/design/posix_rt.md#frames
 /// Source:   H.-J. Boehm, "Can seqlocks get along with programming language memory models?", MSPC 2012
@@ -18,13 +18,13 @@
 namespace mamori::ports::posix_rt {
 
 namespace detail {
-/// Unit of the shared memory; processes agree on it, so it has one size on every machine.
+/// Unit of the shared memory. It has the same size in all processes and on all processors.
 using FrameWord = std::uint64_t;
 static_assert(__atomic_always_lock_free(sizeof(FrameWord), nullptr),
-              "processes share words without a lock, so this machine must load and store one at once");
+              "processes share words without a lock, so the processor must load and store a word atomically");
 
 inline constexpr std::size_t kFrameSlots{4U};
-/// Number, instant and length of a frame.
+/// Words for number, instant and length of a message.
 inline constexpr std::size_t kFrameHeadWords{3U};
 
 constexpr std::size_t calc_slot_words(std::size_t capacity) noexcept {
@@ -32,31 +32,32 @@ constexpr std::size_t calc_slot_words(std::size_t capacity) noexcept {
 }
 }  // namespace detail
 
-/// Largest capacity of a frame [byte].
+/// Maximum capacity of a message [byte].
 inline constexpr std::size_t kFrameCapacityMax{1U << 20U};
 
-/// Size of the memory for frames of up to `capacity` bytes [byte]. @param[in] capacity 1 ..
-/// kFrameCapacityMax.
+/// Size of the memory for messages of up to `capacity` bytes [byte].
+/// @param[in] capacity 1 .. kFrameCapacityMax.
 constexpr std::size_t calc_frame_region_size(std::size_t capacity) noexcept {
     return sizeof(detail::FrameWord) * (1U + detail::kFrameSlots * detail::calc_slot_words(capacity));
 }
 
-/// What a frame says about itself. A reader has it from the other process: it is a claim.
+/// Properties of a message as the writer states them. The reader does not know whether they are true.
 struct FrameFacts {
-    std::uint64_t number{0U};  ///< counts the frames of the memory, from 1 on; after the largest comes 1
-    Instant published_at{};    ///< of the content, on the time line that the processes share
-    std::size_t length{0U};    ///< of the content [byte], never more than the capacity
+    std::uint64_t number{0U};  ///< counts the messages from 1; after the maximum follows 1
+    Instant published_at{};    ///< publication of the content, on the common time line
+    std::size_t length{0U};    ///< size of the content [byte], at most the capacity
 };
 
-/// Outcome of looking for a frame.
+/// Outcome of a read.
 enum class FrameOutcome : std::uint32_t {
-    kNothingNew,  ///< none was written since the last one, or ever
-    kNew,         ///< a frame
-    kTorn,        ///< the writer was at work in each try, or the memory contradicts itself
-    kMalformed,   ///< a frame that cannot be one: longer than the capacity, or not what its receiver expects
+    kNothingNew,  ///< no message since the last one
+    kNew,         ///< a new message
+    kTorn,        ///< the writer wrote during each try, or the memory is inconsistent
+    kMalformed,   ///< a message longer than the capacity, or one that its receiver rejects
 };
 
-/// Writes frames. A frame that is cut off in the middle, with its process or by a stop, is never seen.
+/// Writes messages. The reader never gets an incomplete message, also if the writer is stopped or killed
+/// during write().
 ///
 /// Thread safety: one context of one process writes to a memory.
 /// Time: write() is wait-free, O(length), without a system call. Memory: none of its own.
@@ -66,13 +67,14 @@ class FrameWriter final {
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
 
-    /// Goes on behind the last frame that is there, so that a reader takes the next one for new.
-    /// @param[in] region   zeros, or what an earlier writer left; must outlive the writer.
-    /// @param[in] capacity longest content [byte], 1 .. kFrameCapacityMax; the reader's is the same.
+    /// Continues with the number after that of the last message in the memory, so that a reader detects the
+    /// next message as new.
+    /// @param[in] region zeros, or data of an earlier writer; must outlive the writer.
+    /// @param[in] capacity maximum content [byte], 1 .. kFrameCapacityMax; same value as for the reader.
     /// @return kOk; kBadParameter (capacity, or a region that is too small or not at a multiple of 8).
     Status open(Span<std::byte> region, std::size_t capacity) noexcept;
 
-    /// Makes `content` the frame that the reader finds. @param[in] published_at see FrameFacts.
+    /// Writes `content` as the newest message. @param[in] published_at see FrameFacts.
     /// @return kOk; kBadParameter (longer than the capacity); kPreconditionNotMet (not open).
     Status write(Span<const std::byte> content, Instant published_at) noexcept;
 
@@ -82,14 +84,14 @@ class FrameWriter final {
   private:
     detail::FrameWord* words_{nullptr};
     std::size_t capacity_{0U};
-    std::uint64_t number_{0U};  ///< of the last frame
+    std::uint64_t number_{0U};  ///< number of the last message
 };
 
-/// Looks for frames. Whatever the other process does to the memory, no byte outside of it is touched and each
-/// call ends in bounded time. A frame that is inconsistent is refused; one that is consistent and wrong can
-/// only be told by its content: end-to-end protection belongs there.
+/// Reads messages. For any content of the memory, each call accesses only the memory and ends in bounded
+/// time. An inconsistent message is rejected. A consistent message with wrong content can only be detected by
+/// end-to-end protection.
 ///
-/// Thread safety: one context; any number of readers may look at one memory.
+/// Thread safety: one context per reader; several readers can use one memory.
 /// Time: take() is O(capacity), kTries times at most, without a system call. Memory: none of its own.
 class FrameReader final {
   public:
@@ -99,16 +101,16 @@ class FrameReader final {
     FrameReader(const FrameReader&) = delete;
     FrameReader& operator=(const FrameReader&) = delete;
 
-    /// @param[in] region   is only read; must outlive the reader. @param[in] capacity as the writer's.
+    /// @param[in] region   read-only; must outlive the reader. @param[in] capacity as for the writer.
     /// @return kOk; kBadParameter (as FrameWriter::open()).
     Status open(Span<const std::byte> region, std::size_t capacity) noexcept;
 
-    /// The newest frame, when it is not the one of the last call that said kNew or kMalformed. Frames in
-    /// between are lost: their number tells how many.
-    /// @param[out] content room for a frame, get_capacity() bytes or more (fewer is an own bug); its first
-    ///             facts.length bytes count on kNew and nothing on anything else.
+    /// Reads the newest message, unless it is the message of the last kNew or kMalformed. Messages in between
+    /// are lost; the difference of the numbers gives their count.
+    /// @param[out] content buffer of at least get_capacity() bytes (a smaller one is a contract violation).
+    ///             Its first facts.length bytes are valid on kNew, none on other outcomes.
     /// @param[out] facts   written on kNew only.
-    /// @return kNothingNew also while not open.
+    /// @return outcome; kNothingNew also while not open.
     FrameOutcome take(Span<std::byte> content, FrameFacts& facts) noexcept;
 
     /// Longest content [byte]; 0 while not open.
@@ -119,7 +121,7 @@ class FrameReader final {
 
     const detail::FrameWord* words_{nullptr};
     std::size_t capacity_{0U};
-    std::uint64_t number_{0U};  ///< of the last frame that was taken
+    std::uint64_t number_{0U};  ///< number of the last message read
 };
 
 }  // namespace mamori::ports::posix_rt

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Memory that a safety process shares with a process of less trust: one side writes, the other can only
-/// read, and neither can take the memory away from the other.
+/// Memory that a safety process shares with an untrusted process. One side writes, the other can only read.
+/// Neither side can remove or shrink the memory of the other.
 ///
 /// @satisfies SWR-PRT-012      Design: docs/design/posix_rt.md#shared-memory
 #ifndef MAMORI_PORTS_POSIX_RT_SHARED_MEMORY_HPP
@@ -15,26 +15,26 @@
 
 namespace mamori::ports::posix_rt {
 
-/// What this process does with the memory; the other one does the other.
+/// Access of this process. The other process has the opposite access.
 enum class SharedAccess : std::uint8_t { kRead, kWrite };
 
-/// Why a memory was not created or adopted.
+/// Cause of a failed create() or adopt().
 enum class SharedMemoryError : std::uint8_t {
     kNone,
-    kCannotCreate,   ///< the system has no anonymous files, or too many are open
-    kCannotReserve,  ///< there is not so much memory
-    kCannotSeal,     ///< the system does not know the seals: older than Linux 5.1
-    kCannotReopen,   ///< there is no /proc through which a descriptor for reading is had
-    kNoMemory,       ///< the descriptor is none of a memory that can be shared
-    kWrongSize,      ///< the memory has another size than the one that was agreed
-    kNotSealed,      ///< its size could be changed while it is used
-    kCannotMap,      ///< the system refuses the mapping, for writing in a memory that is only to be read too
+    kCannotCreate,   ///< no anonymous files (memfd), or too many open files
+    kCannotReserve,  ///< not enough memory
+    kCannotSeal,     ///< seals are not supported: Linux is older than 5.1
+    kCannotReopen,   ///< no /proc, which is necessary for a read-only descriptor
+    kNoMemory,       ///< the descriptor does not refer to sealable memory
+    kWrongSize,      ///< the memory has an unexpected size
+    kNotSealed,      ///< the size of the memory could be changed during use
+    kCannotMap,      ///< the system rejects the mapping, for example write access to read-only memory
 };
 
-/// A sentence for the user; never nullptr.
+/// Message for the user; never nullptr.
 const char* describe(SharedMemoryError error) noexcept;
 
-/// Owner of one mapping. The process that creates the memory is the one that is trusted; the other adopts it.
+/// Owner of one mapping. The trusted process creates the memory; the other process adopts it.
 ///
 /// Thread safety: none. Time: the calls wait for the system; call them before the first deadline begins.
 /// Memory: the mapping, `size` bytes rounded up to pages.
@@ -45,39 +45,39 @@ class SharedMemory final {
     SharedMemory(const SharedMemory&) = delete;
     SharedMemory& operator=(const SharedMemory&) = delete;
 
-    /// Creates a memory of zeros, whose size nobody can change any more.
-    /// @param[in] name   for the list of mappings of the process, not nullptr; need not be unique.
-    /// @param[in] size   [byte], from 1 on.
-    /// @param[in] access kRead: only whoever adopts it can write, and this process not even by mistake.
-    /// kWrite:
-    ///                   nobody but this process can write.
+    /// Creates zero-filled memory of a permanently fixed size.
+    /// @param[in] name name in the list of mappings of the process, not nullptr; need not be unique.
+    /// @param[in] size [byte], from 1.
+    /// @param[in] access kRead: only the adopting process can write; this process cannot. kWrite: only this
+    ///            process can write.
     /// @return kOk; kBadParameter (name or size); kPreconditionNotMet (open already); kOutOfResources
-    ///         (kCannotReserve, kCannotMap); kError (every other cause): get_error() and get_system_error()
-    ///         tell it.
+    ///         (kCannotReserve, kCannotMap); kError (every other cause). get_error() and get_system_error()
+    ///         return the cause.
     Status create(const char* name, std::size_t size, SharedAccess access) noexcept;
 
-    /// Maps a memory that another process created, and closes the descriptor, which is needed no more; after
-    /// a refusal it is still open. @param[in] descriptor as handed over. @param[in] size as created.
+    /// Maps memory that another process created. Closes the descriptor on success; it stays open on failure.
+    /// @param[in] descriptor inherited descriptor. @param[in] size as for create().
     /// @return kOk; kBadParameter (size 0); kPreconditionNotMet (open already); kOutOfResources (kCannotMap);
     ///         kError (every other cause).
     Status adopt(int descriptor, std::size_t size, SharedAccess access) noexcept;
 
-    /// Ends the mapping; without one it does nothing.
+    /// Ends the mapping. Without a mapping, the call has no effect.
     void close() noexcept;
 
     bool is_open() const noexcept { return data_ != nullptr; }
-    /// The bytes; empty while closed. Valid until close().
+    /// The bytes of the memory; empty while closed. Valid until close().
     Span<const std::byte> get_region() const noexcept { return {data_, size_}; }
-    /// The same to write; empty with SharedAccess::kRead.
+    /// The writable bytes of the memory; empty with SharedAccess::kRead.
     Span<std::byte> get_writable_region() const noexcept {
         return {is_writable_ ? data_ : nullptr, is_writable_ ? size_ : 0U};
     }
-    /// What is handed over to the process that adopts the memory; -1 while closed, or where it was adopted.
+    /// Descriptor for the process that adopts the memory; -1 while closed, or if this process adopted the
+    /// memory.
     int get_descriptor() const noexcept { return file_; }
 
-    /// Cause of the last call that failed; kNone before it, and after one that did not.
+    /// Cause of the failure of the last call; kNone if it succeeded or there was none.
     SharedMemoryError get_error() const noexcept { return error_; }
-    /// `errno` behind it; 0 where the system had no objection.
+    /// `errno` of this failure; 0 if no system call failed.
     int get_system_error() const noexcept { return system_error_; }
 
   private:

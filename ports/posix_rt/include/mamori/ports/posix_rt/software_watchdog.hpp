@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A watchdog that needs no device: a thread above all others that closes the outputs when it is not served
-/// in time. Where the machine has a device, that one watches over this thread.
+/// A watchdog without a device: a thread with the highest priority closes the outputs if it is not serviced
+/// in time. A watchdog device, if present, supervises this thread.
 ///
 /// @satisfies SWR-PRT-020, SWR-PRT-021, SWR-PRT-022, SWR-PRT-025, SWR-PRT-040, SWR-PRT-041
 /// Design: docs/design/posix_rt.md#watchdog
@@ -25,33 +25,33 @@
 
 namespace mamori::ports::posix_rt {
 
-/// What the watchdog does, once, on its own thread.
+/// Reaction of the watchdog. It runs once, on the watchdog thread.
 struct WatchdogReaction {
-    /// Takes torque and brake current away for good: commands that come later must not give them back. Must
-    /// neither block nor wait for a lock of the code that is watched.
+    /// Removes torque and brake current permanently: later commands must not restore them. Must not block and
+    /// must not wait for a lock of the supervised code.
     void (*close_outputs)(void* context) noexcept;
-    void* context{nullptr};    ///< handed to it
-    bool ends_process{false};  ///< abort() afterwards, so that the crash handlers tell of it
+    void* context{nullptr};    ///< argument of close_outputs
+    bool ends_process{false};  ///< call abort() afterwards, so that the crash handlers record it
 };
 
 /// Why a watchdog expired.
 enum class WatchdogCause : std::uint8_t {
-    kNone,    ///< it has not
-    kLate,    ///< no service in time
-    kEarly,   ///< a service before the window was open: a loop that runs wild
-    kDevice,  ///< the device behind it did not take a service, so nothing watches over this watchdog
+    kNone,    ///< the watchdog has not expired
+    kLate,    ///< not serviced in time
+    kEarly,   ///< serviced before the service window: a runaway loop
+    kDevice,  ///< the device rejected a service, so this watchdog is unsupervised
 };
 
-/// Silent until its first service; from then on each must come in its window after the one before. Expired,
-/// it stays so: whoever wants to go on starts the program again.
+/// Inactive until the first service. Then each service must occur within the service window after the
+/// previous one. An expired watchdog stays expired until the program is restarted.
 ///
-/// Thread safety: service() from one context, has_expired(), get_cause() and is_watching() from any, the
-///                rest before and after. Time: service() is a reading of the clock and one exchange, at its
-///                first call a system call too; it never waits. Memory: no heap; the thread, and its second
-///                stack.
+/// Thread safety: service() from one context, has_expired(), get_cause() and is_watching() from any, all
+///                other functions before and after use. Time: service() reads the clock and does one atomic
+///                exchange, the first call also a system call; it never waits. Memory: no heap; the thread
+///                and its alternate signal stack.
 class SoftwareWatchdog final : public safety::Watchdog {
   public:
-    /// @param[in] clock    the watchdog's own, must outlive it; what callers take for the time is not asked.
+    /// @param[in] clock clock of the watchdog, must outlive it; the times that callers pass are not used.
     /// @param[in] window   0 <= shortest < longest.
     /// @param[in] reaction close_outputs not nullptr.
     SoftwareWatchdog(const FrameClock& clock, safety::WatchdogWindow window,
@@ -62,34 +62,34 @@ class SoftwareWatchdog final : public safety::Watchdog {
     }
     SoftwareWatchdog(const SoftwareWatchdog&) = delete;
     SoftwareWatchdog& operator=(const SoftwareWatchdog&) = delete;
-    /// One that is still open is an own bug: nobody would watch from here on.
+    /// Destruction while open is a contract violation: the supervision would end unnoticed.
     ~SoftwareWatchdog() { MAMORI_REQUIRE(3, !is_open_); }
 
-    /// Starts the thread. @param[in] place priority above everything that is watched.
-    /// @param[in] device nullptr, or open and to be left so until close(); served by the thread four times in
-    ///            its timeout, as long as this watchdog has not expired.
+    /// Starts the thread. @param[in] place priority above all supervised threads.
+    /// @param[in] device nullptr, or an open device that stays open until close(). The thread services it
+    ///            four times per timeout until this watchdog expires.
     /// @return kOk; kPreconditionNotMet (open already, or the device is closed); kOutOfResources (no thread);
-    ///         kBadParameter (the calling thread has a fixed priority that `place` is not above: the watchdog
-    ///         could not run while this thread hangs).
+    ///         kBadParameter (priority not above the fixed priority of the calling thread: the watchdog could
+    ///         not run while this thread hangs).
     Status open(ThreadPlace place, WatchdogDevice* device = nullptr) noexcept;
-    /// Ends the watching, on purpose and with the outputs closed. A device is disarmed by its owner. An
-    /// expired watchdog stays expired. @return kOk; kPreconditionNotMet (closed already).
+    /// Ends the supervision deliberately. Close the outputs before the call. The owner of a device disarms
+    /// it. An expired watchdog stays expired. @return kOk; kPreconditionNotMet (closed already).
     Status close() noexcept;
 
-    /// @return kOk; kError (expired, by this service too if it is late or early; or closed).
+    /// @return kOk; kError (closed, or expired, also if this service is late or early).
     Status service(Instant now) noexcept override;
 
-    /// True from the instant on at which the time is over, be it that the thread is only about to react.
+    /// True as soon as the time has elapsed, also if the thread has not reacted yet.
     bool has_expired() const noexcept;
     WatchdogCause get_cause() const noexcept;
-    /// True from the first service on, as long as it has neither expired nor been closed.
+    /// True from the first service until the watchdog expires or is closed.
     bool is_watching() const noexcept;
 
-    /// What the thread was given in open().
+    /// Result of the request for a priority in open().
     Right get_priority_right() const noexcept { return priority_right_; }
 
   private:
-    // What state_ says beside the instant of the last service, where no clock of this port comes to.
+    // Values of state_ other than the instant of the last service. No clock of this port reaches them.
     static constexpr std::int64_t kClosed = std::numeric_limits<std::int64_t>::min();
     static constexpr std::int64_t kSilent = kClosed + 1;
     static constexpr std::int64_t kExpired = std::numeric_limits<std::int64_t>::max() - 3;  ///< plus cause
@@ -97,7 +97,7 @@ class SoftwareWatchdog final : public safety::Watchdog {
     static void* serve(void* argument) noexcept;
     void watch() noexcept;
     void watch_until_expired() noexcept;
-    WatchdogCause judge(std::int64_t state, Instant now) const noexcept;
+    WatchdogCause evaluate(std::int64_t state, Instant now) const noexcept;
     bool is_device_lost(Instant now) noexcept;
     void wait_for_change(std::int64_t state) noexcept;
     bool has_expired_in(std::int64_t state) const noexcept { return state > kExpired; }
@@ -111,7 +111,7 @@ class SoftwareWatchdog final : public safety::Watchdog {
     Instant device_due_{};
     Right priority_right_{};
     pthread_t thread_{};
-    sem_t changed_{};  ///< first service, expired by a service, ending
+    sem_t changed_{};  ///< posted at the first service, expiry by a service, and end
     CrashStack crash_stack_{};
     bool is_open_{false};
 };

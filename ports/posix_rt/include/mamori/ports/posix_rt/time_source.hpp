@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The clocks of Linux behind the time line of a system. They can be replaced, so that a clock that is fast
-/// or slow, and a timer that does not fire, can be put into a running system.
+/// The Linux clocks of the time line of a system. Tests can replace them to inject a fast or slow clock, or a
+/// timer that does not expire.
 ///
 /// @satisfies SWR-PRT-030      Design: docs/design/posix_rt.md#time-line
 #ifndef MAMORI_PORTS_POSIX_RT_TIME_SOURCE_HPP
@@ -16,31 +16,30 @@ namespace mamori::ports::posix_rt {
 /// Thread safety: any thread. Implementations must not block.
 class ClockReading {
   public:
-    /// Nanoseconds since a zero of its own; never less than it was.
+    /// Nanoseconds since the zero of this clock; never decreases.
     virtual std::int64_t read_ns() const noexcept = 0;
 
   protected:
     ~ClockReading() = default;
 };
 
-/// A clock whose instants can be waited for.
+/// A clock that supports waiting.
 class TimeSource : public ClockReading {
   public:
-    /// Returns when read_ns() has reached `ns` or later, however often a signal comes in between.
+    /// Returns when read_ns() has reached `ns` or later, also when signals interrupt the wait.
     virtual void wait_until(std::int64_t ns) const noexcept = 0;
-    /// For system calls that take an absolute time. @return what CLOCK_MONOTONIC shows when this clock shows
-    /// `ns`.
+    /// For system calls with an absolute time. @return value of CLOCK_MONOTONIC when this clock shows `ns`.
     virtual std::int64_t to_monotonic(std::int64_t ns) const noexcept = 0;
 
   protected:
     ~TimeSource() = default;
 };
 
-/// CLOCK_MONOTONIC: no step of the wall clock moves it, but a time daemon may let it run faster or slower, by
-/// up to a tenth (`adjtimex`).
+/// CLOCK_MONOTONIC: steps of the wall clock do not affect it, but a time daemon can change its rate by up to
+/// 10 % (`adjtimex`).
 const TimeSource& get_monotonic_clock() noexcept;
 
-/// CLOCK_MONOTONIC_RAW: the same hardware, which no daemon adjusts. It can be read, not waited for.
+/// CLOCK_MONOTONIC_RAW: the same hardware, not adjusted by daemons. It supports reading only.
 const ClockReading& get_raw_clock() noexcept;
 
 }  // namespace mamori::ports::posix_rt

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The machine's own watchdog as Linux offers it (`/dev/watchdog`): once it is open it resets the machine
-/// unless it is served again in time. It is told to stop by a deliberate disarm() only, never by an end of
-/// the program.
+/// The watchdog device of the computer (`/dev/watchdog`). Once open, it resets the computer unless it is
+/// serviced in time. Only disarm() stops it; the end of the program does not.
 ///
 /// @satisfies SWR-PRT-023, SWR-PRT-024      Design: docs/design/posix_rt.md#watchdog-device
 /// Source:   Linux kernel, Documentation/watchdog/watchdog-api.rst
@@ -20,7 +19,7 @@
 
 namespace mamori::ports::posix_rt {
 
-/// System calls that a device is driven by; each as the one of its name, with `errno` behind a failure.
+/// System calls for a device. Each behaves like the Linux call and sets `errno` on failure.
 struct WatchdogCalls {
     int (*open)(const char* path, int flags);
     int (*control)(int device, unsigned long request, void* argument);  ///< ioctl
@@ -28,27 +27,27 @@ struct WatchdogCalls {
     int (*close)(int device);
 };
 
-/// Those of Linux; static storage.
+/// The Linux system calls; static storage.
 const WatchdogCalls& get_linux_watchdog_calls() noexcept;
 
-/// Why a device was not taken.
+/// Cause of a failed open().
 enum class WatchdogDeviceError : std::uint8_t {
     kNone,
-    kCannotOpen,        ///< not there, or no permission
-    kInUse,             ///< another program has it
-    kNotAWatchdog,      ///< it does not answer as one
-    kStopsOnClose,      ///< its driver stops it when the program ends, so also after a crash
-    kDoesNotReset,      ///< it raises an alarm only
-    kCannotSetTimeout,  ///< neither does the driver take the timeout nor is the one that it has short enough
+    kCannotOpen,        ///< does not exist, or permission missing
+    kInUse,             ///< another program uses the device
+    kNotAWatchdog,      ///< the device is not a watchdog
+    kStopsOnClose,      ///< the driver stops the device at the end of the program, also after a crash
+    kDoesNotReset,      ///< the device raises an alarm only
+    kCannotSetTimeout,  ///< the driver rejects the timeout, and its current timeout is longer
 };
 
-/// A sentence for the user; never nullptr.
+/// Message for the user; never nullptr.
 const char* describe(WatchdogDeviceError error) noexcept;
 
 /// Owner of an open device.
 ///
-/// Thread safety: none. Time: a system call for each member; most drivers write a register, one behind a slow
-/// bus may wait for milliseconds. Memory: no heap.
+/// Thread safety: none. Time: one system call per function. Most drivers write a register; a driver for a
+/// device on a slow bus can wait for milliseconds. Memory: no heap.
 class WatchdogDevice final : public safety::Watchdog {
   public:
     /// @param[in] calls must outlive the device.
@@ -56,38 +55,38 @@ class WatchdogDevice final : public safety::Watchdog {
         : calls_(calls) {}
     WatchdogDevice(const WatchdogDevice&) = delete;
     WatchdogDevice& operator=(const WatchdogDevice&) = delete;
-    /// Leaves the device running: whoever goes without disarm() has not ended in good order.
+    /// Leaves the device running, because an end without disarm() is not an orderly end.
     ~WatchdogDevice();
 
-    /// Opens the device, which **starts** it: from here on it wants to be served. One that is refused is
-    /// stopped again; a driver that was built not to be stopped goes on and resets the machine.
-    /// @param[in] path of the device, not nullptr. @param[in] timeout longest time without a service, from
-    ///            1 s on; the driver counts whole seconds, a fraction is cut off.
+    /// Opens and **starts** the device: it must be serviced from now on. If open() fails, it stops the device
+    /// again. If the driver does not permit a stop, the device then resets the computer.
+    /// @param[in] path path of the device, not nullptr.
+    /// @param[in] timeout maximum time without a service, at least 1 s; rounded down to seconds.
     /// @return kOk; kBadParameter (path or timeout); kPreconditionNotMet (open already); kError (every other
-    ///         cause): get_error() and get_system_error() tell it.
+    ///         cause). get_error() and get_system_error() return the cause.
     Status open(const char* path, Duration timeout) noexcept;
 
-    /// Restarts its time. @return kOk; kError (the driver refused, see get_system_error(), or it is closed).
+    /// Restarts the timeout. @return kOk; kError (closed, or rejected by the driver, see get_system_error()).
     Status service(Instant now) noexcept override;
 
-    /// Stops the device, at an orderly end: outputs closed, nothing left to watch.
-    /// @return kOk; kPreconditionNotMet (closed); kError (the driver did not take it: it goes on, stays open
-    ///         and can be served).
+    /// Stops the device for an orderly end. Close the outputs before the call.
+    /// @return kOk; kPreconditionNotMet (closed); kError (the driver rejected the stop; the device continues,
+    ///         stays open and can be serviced).
     Status disarm() noexcept;
 
-    /// Asks the driver how long it still waits for a service. May be called beside service().
-    /// @return whole seconds; kPreconditionNotMet (closed); kUnsupported (the driver does not tell); kError
-    ///         (it failed to).
+    /// Reads the remaining time from the driver. May be called concurrently with service().
+    /// @return remaining time in complete seconds; kPreconditionNotMet (closed); kUnsupported (the driver
+    ///         does not report it); kError (the call failed).
     Result<Duration> read_time_left() const noexcept;
 
     bool is_open() const noexcept { return device_ >= 0; }
-    /// What the driver granted, not longer than what was asked for; 0 while closed.
+    /// Timeout that the driver accepted, at most the requested one; 0 while closed.
     Duration get_timeout() const noexcept { return timeout_; }
-    /// Whether this device has caused the last start of the machine, as far as the driver knows.
+    /// True if the driver reports that this device caused the last reset of the computer.
     bool has_reset_machine() const noexcept { return has_reset_machine_; }
-    /// Cause of the last open() that failed; kNone before it, and after one that did not.
+    /// Cause of the failure of the last open(); kNone if it succeeded or was not called.
     WatchdogDeviceError get_error() const noexcept { return error_; }
-    /// `errno` of the last call that failed; 0 where the system had no objection.
+    /// `errno` of the last failed call; 0 if no system call failed.
     int get_system_error() const noexcept { return system_error_; }
 
   private:

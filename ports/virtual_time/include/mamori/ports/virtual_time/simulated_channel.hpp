@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A transport between two partitions, as a component of the system table: it passes messages on and can be
-/// told to lose or delay them. It is a grey channel: the receiver must judge age and content by itself.
+/// A transport between two partitions, as a component of the system table. It forwards messages and can lose
+/// or delay them on request. It is a black channel (IEC 61784-3): the receiver must check age and content.
 ///
 /// @satisfies SWR-VTM-004      Design: docs/design/conformance.md#channel
 #ifndef MAMORI_PORTS_VIRTUAL_TIME_SIMULATED_CHANNEL_HPP
@@ -17,14 +17,15 @@
 
 namespace mamori::ports::virtual_time {
 
-/// Faults of a transport, judged worst first: a lost message is not delayed as well.
+/// Injected faults of a transport, worst first: a lost message is not delayed in addition.
 struct ChannelFault {
-    bool is_losing{false};  ///< messages that arrive now are dropped
-    Duration delay{0};      ///< messages that arrive now leave at least this much later; below 0 counts as 0
+    bool is_losing{false};  ///< discard messages that arrive now
+    Duration delay{0};      ///< minimum delay of messages that arrive now; negative: 0
 };
 
-/// Channel for payload T that can hold `kCapacity` delayed messages; the oldest gives way when it is full.
-/// Messages never overtake each other: one without delay waits for a delayed one before it.
+/// Channel for payload T that stores up to `kCapacity` delayed messages. If it is full, a new message
+/// overwrites the oldest. The channel keeps the order: a message without delay waits for earlier delayed
+/// messages.
 ///
 /// Thread safety: none; runs in its window. Time: O(kCapacity). Memory: kCapacity T.
 template <typename T, std::size_t kCapacity>
@@ -38,10 +39,10 @@ class SimulatedChannel final : public Component {
     OutPort<T> out{*this, "out"};
     using Ports = mamori::Ports<&SimulatedChannel::in, &SimulatedChannel::out>;
 
-    /// Takes effect on messages that arrive from the next cycle on.
+    /// Takes effect for messages that arrive in the next cycle or later.
     void set_fault(const ChannelFault& fault) noexcept { fault_ = fault; }
 
-    /// Messages that gave way to newer ones because the channel was full.
+    /// Number of messages that newer messages overwrote because the channel was full.
     std::uint32_t get_dropped_count() const noexcept { return dropped_count_; }
 
     Status on_execute(ContextHandle context) noexcept override {
@@ -68,7 +69,7 @@ class SimulatedChannel final : public Component {
         ++count_;
     }
 
-    /// Of all messages that are due now the newest leaves: `out` keeps the latest value only.
+    /// Forwards the newest of the due messages, because `out` keeps the latest value only.
     void deliver(Instant now) noexcept {
         while (count_ > 0U && now - slots_[first_].arrival >= slots_[first_].delay) {
             out.write(slots_[first_].message);

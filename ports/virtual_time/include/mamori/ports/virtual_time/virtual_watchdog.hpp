@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A hardware watchdog in virtual time: once serviced for the first time it wants to be serviced again before
-/// its time is over, and opens its relay for good when it is not.
+/// A hardware watchdog in virtual time. From its first service, it opens its relay permanently if it is not
+/// serviced again within its timeout.
 ///
 /// @satisfies SWR-VTM-005      Design: docs/design/conformance.md#virtual-watchdog
 #ifndef MAMORI_PORTS_VIRTUAL_TIME_VIRTUAL_WATCHDOG_HPP
@@ -16,21 +16,20 @@ namespace mamori::ports::virtual_time {
 /// Thread safety: none. Time: O(1). Memory: no heap.
 class VirtualWatchdog final : public safety::Watchdog {
   public:
-    /// @param[in] timeout longest time without a service, > 0.
+    /// @param[in] timeout maximum time without a service, > 0.
     constexpr explicit VirtualWatchdog(Duration timeout) noexcept : timeout_(timeout) {
         MAMORI_REQUIRE(1, timeout > Duration{0});
     }
 
-    /// @return kOk; kError (the relay is open: nothing closes it again).
+    /// @return kOk; kError (the relay is open permanently).
     Status service(Instant now) noexcept override;
 
-    /// Lets the hardware's own time pass. To be called by the devices once per frame.
+    /// Advances the time of the hardware. The devices call it once per major frame.
     void check(Instant now) noexcept;
 
-    /// True once the relay has opened. It stays closed while the watchdog has not been started by a first
-    /// service.
+    /// True after the relay has opened. Before the first service, the relay stays closed.
     bool has_expired() const noexcept { return has_expired_; }
-    /// True from the first service on, until the relay opens.
+    /// True from the first service until the relay opens.
     bool is_watching() const noexcept { return is_started_ && !has_expired_; }
 
   private:

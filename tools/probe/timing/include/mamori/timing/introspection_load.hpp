@@ -17,7 +17,7 @@ namespace mamori::timing {
 enum class Pace : std::uint8_t {
     kNone,
     kSteady,       ///< one request per millisecond
-    kBurst,        ///< a hundred requests in a row every 100 ms
+    kBurst,        ///< a hundred successive requests every 100 ms
     kWithoutPause  ///< requests in immediate sequence
 };
 

@@ -21,7 +21,7 @@ namespace mamori::timing {
 /// Represents an instant that did not occur.
 inline constexpr Instant kNoInstant{-1};
 
-/// State of a system that does not tell its state.
+/// State of a system that does not report its state.
 inline constexpr std::uint32_t kNoState = 0xFFFFFFFFU;
 
 /// One window instance.
