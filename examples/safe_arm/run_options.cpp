@@ -88,7 +88,7 @@ ParsedCommand parse_command(int argc, const char* const* argv) {
     CLI::App* table = app.add_subcommand("table", "Write the system table as JSON; `mamori table` shows it.");
     table->add_option("--out", result.table, "File for the table")->required();
     CLI::App* timing =
-        app.add_subcommand("timing", "Run by the clock and measure; `mamori timing` shows it.");
+        app.add_subcommand("timing", "Run in real time and measure; `mamori timing` shows it.");
     timing->add_option("--model", options.model, "Arm model file (YAML)")->required();
     timing->add_option("--motion", options.motion, "Motion table; without one the arm holds its position");
     timing->add_option("--out", options.out, "Folder for the measured times")->required();

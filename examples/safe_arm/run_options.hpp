@@ -22,7 +22,7 @@ struct RunOptions {
     std::uint64_t frames{0U};         ///< 0: motion plus settling time
     std::uint64_t first_counted{0U};  ///< frame from which on a cost run counts
     std::uint64_t count_every{1U};    ///< of which frames then
-    bool is_by_clock{false};          ///< a cost run goes by the clock
+    bool is_by_clock{false};          ///< a cost run runs in real time
     bool with_requests{false};        ///< a timing run requests introspection
 };
 
@@ -31,7 +31,7 @@ struct RunOptions {
 struct ParsedCommand {
     RunOptions options;
     std::string table;      ///< file for the system table; not empty: write it instead of running
-    bool is_timing{false};  ///< run by the clock and measure, `frames` frames
+    bool is_timing{false};  ///< run in real time and measure, `frames` frames
     bool is_cost{false};    ///< run so that steps can be counted, `frames` frames
     int exit_code{-1};
 };

@@ -118,7 +118,7 @@ def test_name_tables_of_each_kind_say_the_same(tmp_path: Path, name: str, text: 
         ("n.toml", "a =", "is no toml text"),
         ("n.json", "[1]", "the table must be a table"),
         ("n.json", '{"sorces": {}}', "nearest: sources"),
-        ("n.json", '{"sources": {"zero": "x"}}', "sources: 'zero' is no whole number"),
+        ("n.json", '{"sources": {"zero": "x"}}', "sources: 'zero' is not an integer"),
         ("n.yaml", "sources: {0: on}", "sources.0 must be a printable name"),
         ("n.json", '{"sources": {"0": "a\\u001b[2J"}}', "sources.0 must be a printable name"),
         ("n.json", '{"codes": {"0": {"name": "x", "argument": "stat"}}, "arguments": {"state": {}}}', "nearest: state"),

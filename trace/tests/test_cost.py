@@ -63,14 +63,14 @@ def test_classes_of_one_component_stand_together(report: Callable) -> None:
 @pytest.mark.verifies("SWR-TIM-034", technique="fault_injection", polarity="violation")
 def test_findings_marks_and_other_commits_stand_at_the_top(report: Callable) -> None:
     record = copy.deepcopy(COST)
-    record.update(exit_status=1, marks=["TIMES WITHOUT REAL-TIME RIGHTS"], findings=["window 'protect': budget <8 us", "another"])
+    record.update(exit_status=1, marks=["TIMES WITHOUT REAL-TIME PRIVILEGES"], findings=["window 'protect': budget <8 us", "another"])
     record["limits"][0].update(left_ns=-4800.0, is_kept=False)
     record["environment"] = ENVIRONMENT | {"commit": COMMIT[::-1]}
 
     section, outcome = report(record)
 
     assert outcome.status == 0
-    for part in ('<span class="badge failed">2 findings</span>', '<p class="mark">TIMES WITHOUT REAL-TIME RIGHTS</p>', "budget &lt;8 us",
+    for part in ('<span class="badge failed">2 findings</span>', '<p class="mark">TIMES WITHOUT REAL-TIME PRIVILEGES</p>', "budget &lt;8 us",
                  "of another commit", '<td class="num bad">−4.80</td>', "bad\">too low</td>"):  # fmt: skip
         assert part in section, part
     assert section.index("another") < section.index("Budgets and declared")
@@ -78,7 +78,7 @@ def test_findings_marks_and_other_commits_stand_at_the_top(report: Callable) -> 
 
 @pytest.mark.parametrize(("change", "complaint"), [
     (lambda record: record.pop("pace"), "pace is missing; count again"),
-    (lambda record: record["steps"][0]["instructions"].update(max="many"), "steps[0].instructions.max is no whole number"),
+    (lambda record: record["steps"][0]["instructions"].update(max="many"), "steps[0].instructions.max is not an integer"),
     (lambda record: record["limits"][0].update(is_kept=1), "limits[0].is_kept is no truth value"),
     (lambda record: record.update(schema="mamori.cost/2"), "this tool reads 'mamori.cost/1'"),
 ])  # fmt: skip

@@ -57,7 +57,7 @@ def load_baseline(path: Path = FILE) -> Baseline:
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"is no TOML: {error}; write it anew with {ACCEPT}", path) from error
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise InputError(f"is no baseline ({error}); write it anew with {ACCEPT}", path) from error
+        raise InputError(f"invalid baseline ({error}); write it anew with {ACCEPT}", path) from error
 
 
 def write_baseline(baseline: Baseline, path: Path = FILE) -> None:

@@ -150,7 +150,7 @@ def list_findings(limits: Sequence[LimitRow], runs: Sequence[ClassRun], ratios: 
     counted = {row.component for row in ratios}
     silent = [component.name for component in table.components if component.window is not None and component.name not in counted]
     if ratios and not any(row.median_ns > 0.0 for row in ratios):
-        findings.append("ratio: no component took any time by the clock, so every limit would seem kept; declare a class of inputs with more to do")
+        findings.append("ratio: no component took any time in real time, so no limit can be checked; declare a class of inputs with more work")
     findings += [f"component '{name}': ran in no counted cycle of any class; declare a class of inputs in which it runs" for name in silent]
     return findings
 

@@ -24,7 +24,7 @@ from mamori_trace.base.text_file import read_text, write_text
 
 SCHEMA = "mamori.cost_baseline/1"
 KEYS = ("schema", "system", "table", "classes", "compiler", "flags", "c_library", "step")
-HOW_TO_MEND = "write it anew with ./mamori cost SYSTEM --accept FILE"
+HOW_TO_FIX = "write it anew with ./mamori cost SYSTEM --accept FILE"
 
 Key = tuple[str, str, str]
 """Class, component, pass."""
@@ -53,22 +53,22 @@ def load_baseline(path: Path, system: str, classes: Sequence[InputClass]) -> Bas
     try:
         data = tomllib.loads(read_text(path, "baseline", 1_000_000).text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"is no TOML: {error}; {HOW_TO_MEND}", path) from error
+        raise InputError(f"is no TOML: {error}; {HOW_TO_FIX}", path) from error
     if data.get("schema") != SCHEMA:
-        raise InputError(f"has the schema '{data.get('schema')}', this command reads '{SCHEMA}'; {HOW_TO_MEND}", path)
+        raise InputError(f"has the schema '{data.get('schema')}', this command reads '{SCHEMA}'; {HOW_TO_FIX}", path)
     try:
         if unknown := sorted(set(data) - set(KEYS)):
             raise ValueError(f"it has an unknown key '{unknown[0]}'")
         texts = {key: _read_text(data, key) for key in KEYS[1:-1]}
         maxima = {(_read_text(row, "class"), _read_text(row, "component"), _read_text(row, "pass")): _read_max(row) for row in data["step"]}
     except KeyError as error:
-        raise InputError(f"is no baseline: it has no {error}; {HOW_TO_MEND}", path) from error
+        raise InputError(f"invalid baseline: key {error} is missing; {HOW_TO_FIX}", path) from error
     except (TypeError, ValueError, AttributeError) as error:
-        raise InputError(f"is no baseline: {error}; {HOW_TO_MEND}", path) from error
+        raise InputError(f"invalid baseline: {error}; {HOW_TO_FIX}", path) from error
     if texts["system"] != system:
-        raise InputError(f"is the baseline of '{texts['system']}', not of '{system}'; name its own, or {HOW_TO_MEND}", path)
+        raise InputError(f"is the baseline of '{texts['system']}', not of '{system}'; name its own, or {HOW_TO_FIX}", path)
     if texts["classes"] != make_class_fingerprint(classes):
-        raise InputError(f"was made with other classes of inputs; {HOW_TO_MEND}", path)
+        raise InputError(f"was made with other classes of inputs; {HOW_TO_FIX}", path)
     return Baseline(path, system, texts["table"], texts["classes"], Build(texts["compiler"], texts["flags"], texts["c_library"]), maxima)
 
 
@@ -90,10 +90,10 @@ def check_origin(baseline: Baseline, table: Table, build: Build) -> None:
     for what, before, now in (("compiler", baseline.build.compiler, build.compiler), ("flags", baseline.build.flags, build.flags),
                               ("C library", baseline.build.c_library, build.c_library)):  # fmt: skip
         if before != now:
-            raise InputError(f"was made with the {what} '{before}', this program with '{now}'; compare with those, or {HOW_TO_MEND}",
+            raise InputError(f"was made with the {what} '{before}', this program with '{now}'; compare with those, or {HOW_TO_FIX}",
                              baseline.path)  # fmt: skip
     if baseline.table != make_fingerprint(table):
-        raise InputError(f"was made of another table of '{baseline.system}'; {HOW_TO_MEND}", baseline.path)
+        raise InputError(f"was made of another table of '{baseline.system}'; {HOW_TO_FIX}", baseline.path)
 
 
 def judge_growth(baseline: Baseline, rows: Sequence[StepRow], growth_percent: float) -> list[str]:
@@ -104,12 +104,12 @@ def judge_growth(baseline: Baseline, rows: Sequence[StepRow], growth_percent: fl
         before, count = baseline.maxima.get(key), row.instructions
         where = f"component '{row.component}', {row.pass_name}, class '{row.input_class}'"
         if before is None:
-            findings.append(f"{where}: is not in the baseline; {HOW_TO_MEND}")
+            findings.append(f"{where}: is not in the baseline; {HOW_TO_FIX}")
         elif count.max > before * (1.0 + growth_percent / 100.0):
             findings.append(f"{where}: {count.max} instructions in cycle {count.cycle}, {count.max - before} more than the baseline's {before}, "
-                            f"{growth_percent:g} % are allowed; make it cheaper, or say in the commit why and {HOW_TO_MEND}")  # fmt: skip
+                            f"{growth_percent:g} % are allowed; make it cheaper, or say in the commit why and {HOW_TO_FIX}")  # fmt: skip
     gone = [key for key in baseline.maxima if key not in now]
-    findings += [f"component '{name}', {step}, class '{one}': is in the baseline and did not run; {HOW_TO_MEND}" for one, name, step in gone]
+    findings += [f"component '{name}', {step}, class '{one}': is in the baseline and did not run; {HOW_TO_FIX}" for one, name, step in gone]
     return findings
 
 

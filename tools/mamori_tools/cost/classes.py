@@ -102,7 +102,7 @@ def _read_class(row: dict[str, Any], project: Project, file: Path) -> InputClass
 def _read_count(row: dict[str, Any], key: str, least: int, most: int, what: str, file: Path) -> int:
     value = row.get(key, least if key != "cycles" else None)
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
-        raise InputError(f"{what}: '{key}' must be a whole number of {least} .. {most}", file)
+        raise InputError(f"{what}: '{key}' must be an integer of {least} .. {most}", file)
     return value
 
 

@@ -55,7 +55,7 @@ class Report:
         refused = {right.name: right for run in self.runs for right in run.facts.rights if not right.is_granted}
         if not refused:
             return []
-        return ["TIMES WITHOUT REAL-TIME RIGHTS: refused: " + ", ".join(f"{one.name} ({os.strerror(one.errno)})" for one in refused.values())]
+        return ["TIMES WITHOUT REAL-TIME PRIVILEGES: denied: " + ", ".join(f"{one.name} ({os.strerror(one.errno)})" for one in refused.values())]
 
 
 def make_report(system: str, plan: CostPlan, runs: Sequence[ClassRun], host: dict[str, Any]) -> Report:

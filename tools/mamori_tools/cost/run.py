@@ -134,7 +134,7 @@ def read_cost(folder: Path, one: InputClass) -> tuple[Table, Array, Facts]:
 def _check_same(one: InputClass, table: Table, counted: Array, timed: Array) -> None:
     """@raise WorkError if both runs executed different steps: times then do not belong to counts."""
     if len(counted) != len(timed):
-        raise WorkError(f"class '{one.name}': {len(counted)} steps under callgrind, {len(timed)} by the clock; the program must do the same "
+        raise WorkError(f"class '{one.name}': {len(counted)} steps under callgrind, {len(timed)} in real time; the program must do the same "
                         "again with the same arguments")  # fmt: skip
     for key in ("release_ns", "component", "pass"):
         differs = counted[key] != timed[key]
@@ -142,4 +142,4 @@ def _check_same(one: InputClass, table: Table, counted: Array, timed: Array) -> 
             row = int(np.argmax(differs))
             names = [table.component_name(int(steps["component"][row])) for steps in (counted, timed)]
             raise WorkError(f"class '{one.name}': step {row} was of '{names[0]}' at {counted['release_ns'][row]} ns under callgrind, and of "
-                            f"'{names[1]}' at {timed['release_ns'][row]} ns by the clock; the program must do the same again")  # fmt: skip
+                            f"'{names[1]}' at {timed['release_ns'][row]} ns in real time; the program must do the same again")  # fmt: skip

@@ -105,7 +105,7 @@ def check(arguments: argparse.Namespace) -> Channel:
 
 def _read_count(text: str, option: str) -> int:
     if not (text.isascii() and text.isdecimal()) or len(text) > DIGITS_MOST or int(text) < 1:
-        raise InputError(f"e2e: argument {option}: '{text}' is no whole number from 1 on, with at most {DIGITS_MOST} digits")
+        raise InputError(f"e2e: argument {option}: '{text}' is not an integer of at least 1, with at most {DIGITS_MOST} digits")
     return int(text)
 
 

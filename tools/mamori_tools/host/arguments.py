@@ -70,7 +70,7 @@ class Parser(argparse.ArgumentParser):
 def at_least_one(text: str) -> int:
     """Type of an option that counts."""
     if not (text.isascii() and text.isdecimal()) or not text.strip("0"):
-        raise argparse.ArgumentTypeError(f"'{text}' is no whole number from 1 on")
+        raise argparse.ArgumentTypeError(f"'{text}' is not an integer of at least 1")
     if len(text) > DIGITS_MAX:
         raise argparse.ArgumentTypeError(f"'{text[:DIGITS_MAX]}...' has more than {DIGITS_MAX} digits; give a smaller number")
     return int(text)

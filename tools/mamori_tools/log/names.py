@@ -93,7 +93,7 @@ def _number(path: Path, place: str, key: object) -> int:
     try:
         return int(str(key), 10)
     except ValueError as error:
-        raise InputError(f"{place}: '{key}' is no whole number", path) from error
+        raise InputError(f"{place}: '{key}' is not an integer", path) from error
 
 
 def _text(path: Path, place: str, value: object) -> str:

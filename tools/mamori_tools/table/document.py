@@ -12,7 +12,7 @@ from pathlib import Path
 
 from mamori_tools.table.mode_rows import ConfigurationSet, Mode, Parameter, Transition, read_mode, read_parameter, read_set, read_transition
 from mamori_trace.base.errors import InputError
-from mamori_trace.base.json_node import HOW_TO_MEND, JsonNode
+from mamori_trace.base.json_node import HOW_TO_FIX, JsonNode
 from mamori_trace.base.text_file import read_text
 
 SCHEMA = "mamori.table/2"
@@ -119,7 +119,7 @@ def read_table(path: Path) -> Table:
     except (ValueError, RecursionError) as error:
         line = error.lineno if isinstance(error, json.JSONDecodeError) else None
         what = error.msg if isinstance(error, json.JSONDecodeError) else str(error)
-        raise InputError(f"is no whole JSON document: {what}; {HOW_TO_MEND}", path, line) from error
+        raise InputError(f"is no whole JSON document: {what}; {HOW_TO_FIX}", path, line) from error
     root = JsonNode(path, "the table", value)
     schema = root.at("schema").text()
     if schema != SCHEMA:

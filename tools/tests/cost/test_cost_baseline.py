@@ -101,8 +101,8 @@ def test_place_of_the_project_is_no_part_of_a_class(path: Path) -> None:
 
 @pytest.mark.parametrize(("old", "new", "complaint"), [
     ("cost_baseline/1", "cost_baseline/2", "has the schema 'mamori.cost_baseline/2'"), ('system = "arm"', "system = 3", "'system' is no text"),
-    ('system = "arm"\n', "", "it has no 'system'"), ("max = 100\n", "max = -1\n", "max of 'drive' is no count"),
-    ("max = 100\n", "max = 1.5\n", "is no count"), ("max = 100\n", "max = true\n", "is no count"), ("max = 100\n", "", "it has no 'max'"),
+    ('system = "arm"\n', "", "key 'system' is missing"), ("max = 100\n", "max = -1\n", "max of 'drive' is no count"),
+    ("max = 100\n", "max = 1.5\n", "is no count"), ("max = 100\n", "max = true\n", "is no count"), ("max = 100\n", "", "key 'max' is missing"),
     ("flags", "flagz", "it has an unknown key 'flagz'"), ("schema =", "schema", "is no TOML"), ("[[step]]", "[step]", "is no TOML"),
 ])  # fmt: skip
 @pytest.mark.verifies("SWR-TIM-038", technique="equivalence_classes", polarity="violation")

@@ -112,7 +112,7 @@ def test_refused_rights_are_marked_at_the_top(bench: Bench) -> None:
     bench.refused = ("priority",)
     assert bench.call() == 0
 
-    assert bench.load_record()["marks"] == ["TIMES WITHOUT REAL-TIME RIGHTS: refused: priority (Operation not permitted)"]
+    assert bench.load_record()["marks"] == ["TIMES WITHOUT REAL-TIME PRIVILEGES: denied: priority (Operation not permitted)"]
     assert (bench.out / "cost.txt").read_text(encoding="utf-8").startswith("*** TIMES WITHOUT")
 
 
@@ -199,7 +199,7 @@ def test_baseline_of_another_compiler_ends_with_status_2_and_no_result(bench: Be
     (("--class", "still", "--accept", "b"), "--accept takes all classes of inputs"),
     (("--out", "/proc/none"), "cost: /proc/none: not writable"),
     (("--clas", "still"), "cost has no option '--clas'; nearest: --class"),
-    (("--jobs", "0"), "'0' is no whole number from 1 on"),
+    (("--jobs", "0"), "'0' is not an integer of at least 1"),
 ])  # fmt: skip
 @pytest.mark.verifies("SWR-TIM-036", technique="equivalence_classes", polarity="violation")
 def test_wrong_words_end_with_one_line_and_status_2_before_anything_runs(

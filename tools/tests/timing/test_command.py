@@ -197,8 +197,8 @@ def test_baseline_of_another_table_ends_before_the_run(program: Path, capsys: py
 @pytest.mark.parametrize(
     ("words", "said"),
     [(["nowhere"], "there is no system 'nowhere'"), (["{folder}"], "has no timing.toml"), (["{folder}/plain"], "is not an executable program"),
-     (["{program}", "--cycles", "0"], "'0' is no whole number from 1 on"), (["{program}", "--cycles", "-5"], "no whole number"),
-     (["{program}", "--cycles", "1.5"], "no whole number"), (["{program}", "--check", "{folder}/none"], "baseline not found"),
+     (["{program}", "--cycles", "0"], "'0' is not an integer of at least 1"), (["{program}", "--cycles", "-5"], "not an integer"),
+     (["{program}", "--cycles", "1.5"], "not an integer"), (["{program}", "--check", "{folder}/none"], "baseline not found"),
      (["{program}", "--check", "a", "--accept", "b"], "exclude each other"), (["{program}", "--accept", "{folder}"], "is a folder"),
      (["{program}", "--out", "{folder}/plain/deeper"], "not writable"), (["{program}", "--fast"], "has no option '--fast'"),
      (["{program}", "other"], "does not take 'other'"), ([], "SYSTEM")],

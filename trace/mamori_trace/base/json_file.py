@@ -75,7 +75,7 @@ def read_records(
 
 
 def find_misfit(value: Any, shape: Any, name: str) -> str:
-    """Describes the first mismatch with its location in the file (`windows[2].budget_ns is no whole number`); empty if all values match.
+    """Describes the first mismatch with its location in the file (`windows[2].budget_ns is not an integer`); empty if all values match.
 
     `shape`: `int`, `float` (any finite number), `str`, `bool`; `[shape]`: a list of such values; a table from keys to shapes: the required
     keys; `Maybe`, `Each`. The recursion depth depends on the shape only, not on `value`.
@@ -97,8 +97,8 @@ def find_misfit(value: Any, shape: Any, name: str) -> str:
         if absent:
             return f"{_join(name, absent[0])} is missing"
         return _find_first((value[key], inner, _join(name, key)) for key, inner in shape.items())
-    fits, wanted = _LEAVES[shape]
-    return "" if fits(value) else f"{name} is no {wanted}"
+    fits, otherwise = _LEAVES[shape]
+    return "" if fits(value) else f"{name} is {otherwise}"
 
 
 def _find_first(parts: Iterable[tuple[Any, Any, str]]) -> str:
@@ -119,8 +119,8 @@ def _is_text(value: object) -> bool:
 
 
 _LEAVES: dict[type, tuple[Callable[[Any], bool], str]] = {
-    int: (_is_whole, "whole number"),
-    float: (lambda value: _is_whole(value) or (isinstance(value, float) and math.isfinite(value)), "number"),
-    str: (_is_text, "text"),
-    bool: (lambda value: isinstance(value, bool), "truth value"),
+    int: (_is_whole, "not an integer"),
+    float: (lambda value: _is_whole(value) or (isinstance(value, float) and math.isfinite(value)), "no number"),
+    str: (_is_text, "no text"),
+    bool: (lambda value: isinstance(value, bool), "no truth value"),
 }

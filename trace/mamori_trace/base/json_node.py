@@ -11,13 +11,13 @@ from pathlib import Path
 from mamori_trace.base.errors import InputError
 from mamori_trace.base.nearest_names import nearest_names
 
-HOW_TO_MEND = "write it again with mamori::table_dump"
+HOW_TO_FIX = "write it again with mamori::table_dump"
 
 
 class JsonNode:
     """One JSON value with its location, which every error message names."""
 
-    def __init__(self, path: Path, place: str, value: object, mend: str = HOW_TO_MEND) -> None:
+    def __init__(self, path: Path, place: str, value: object, mend: str = HOW_TO_FIX) -> None:
         self._path = path
         self._place = place
         self._value = value
@@ -62,7 +62,7 @@ class JsonNode:
 
     def whole(self) -> int:
         if not isinstance(self._value, int) or isinstance(self._value, bool) or abs(self._value) >= 2**64:
-            raise self.complain("must be a whole number of 64 bits")
+            raise self.complain("must be an integer of 64 bits")
         return self._value
 
     def count(self) -> int:

@@ -114,7 +114,7 @@ class Node:
         try:
             return int(text)
         except ValueError:
-            raise self.error(f"'{text}' is not a whole number") from None
+            raise self.error(f"'{text}' is not an integer") from None
 
     def as_bool(self) -> bool:
         text = self.as_text()
