@@ -51,7 +51,7 @@ Status finalize_component(const CoreState& core, std::size_t component, ActionGu
 
 }  // namespace detail
 
-bool ActionGuard::call(const WindowHost::Work& work, ComponentAction action) noexcept {
+bool ActionGuard::run(const WindowHost::Work& work, ComponentAction action) noexcept {
     WindowHost::Work step = work;
     step.component = core_->view.windows[work.window].first_component + work.first;
     if (host_.run_within(step, host_.get_now() + budget_) != 0U) {

@@ -28,7 +28,10 @@ class ActionGuard : public ActionCaller {
     ActionGuard(const ActionGuard&) = delete;
     ActionGuard& operator=(const ActionGuard&) = delete;
 
-    bool call(const WindowHost::Work& work, ComponentAction action) noexcept final;
+    // Inline, so that programs with type information can derive from this class.
+    bool call(const WindowHost::Work& work, ComponentAction action) noexcept final {
+        return run(work, action);
+    }
     /// For the executive: its state.
     void attach(detail::CoreState& core) noexcept { core_ = &core; }
 
@@ -45,6 +48,8 @@ class ActionGuard : public ActionCaller {
     virtual void on_action_overrun(std::size_t component, ComponentAction action) noexcept = 0;
 
   private:
+    bool run(const WindowHost::Work& work, ComponentAction action) noexcept;
+
     WindowHost& host_;
     Duration budget_;
     detail::CoreState* core_{nullptr};  ///< of the executive
