@@ -15,13 +15,20 @@ Component& get_component(const WindowState& state, std::size_t position) noexcep
     return *view.components[view.windows[state.get_window()].first_component + position];
 }
 
+// As WindowHost::Work::run. An action that was aborted before its start is not called.
 void initialize_step(void* argument, std::size_t position, std::size_t) noexcept {
     WindowState& state = *static_cast<WindowState*>(argument);
+    if (state.context.is_busy()) {
+        return;
+    }
     state.life_result = static_cast<std::uint8_t>(get_component(state, position).initialize());
 }
 
 void finalize_step(void* argument, std::size_t position, std::size_t) noexcept {
     WindowState& state = *static_cast<WindowState*>(argument);
+    if (state.context.is_busy()) {
+        return;
+    }
     state.life_result = static_cast<std::uint8_t>(get_component(state, position).finalize());
 }
 
