@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: each action outside windows has a budget; one that exceeds it is named, its window is left alone until
-// it has returned, and every other window is stopped. Method: an executive with two windows and a host that lets
-// the n-th action of one component be late, hang or start late; components that write down their actions.
+// Goal: each action outside windows has a budget; one that exceeds it is named, its window is left alone
+// until it has returned, and every other window is stopped. Method: an executive with two windows and a host
+// that lets the n-th action of one component be late, hang or start late; components that write down their
+// actions.
 #include "mamori/kernel/run/action_guard.hpp"
 
 #include <gtest/gtest.h>
@@ -227,9 +228,9 @@ TEST_F(ActionGuardTest, OperationsThatAreNotAdmittedCallNoAction) {
 struct LateAction {
     std::size_t nth;  ///< of the actions of b
     const char* name;
-    Log log;           ///< of the operation, without the late action if it does not start
-    bool is_start;     ///< the operation that fails sets the failed component
-    bool is_running;   ///< the first context afterwards
+    Log log;                     ///< of the operation, without the late action if it does not start
+    bool is_start;               ///< the operation that fails sets the failed component
+    bool is_running;             ///< the first context afterwards
     Log stop_after_late;         ///< of a stop() after the action has returned
     Log stop_after_not_started;  ///< likewise
 };
@@ -272,8 +273,9 @@ TEST_P(LateActionTest, WindowIsLeftAloneUntilTheActionHasReturnedAndUsableThen) 
         Noter first{"a"};
         Noter second{"b"};
         Noter third{"c"};
-        const auto table = system(frame(1000_ns), window("first", 0_ns, 300_ns, budget(200_ns), run(first, second)),
-                                  window("second", 400_ns, 300_ns, budget(200_ns), run(third)));
+        const auto table =
+            system(frame(1000_ns), window("first", 0_ns, 300_ns, budget(200_ns), run(first, second)),
+                   window("second", 400_ns, 300_ns, budget(200_ns), run(third)));
         ExecutiveFor sut{table};
         host.fail_at(1U, GetParam().nth, fault);
         ASSERT_EQ(run_until_failure(sut, guard), Status::kError);
@@ -304,31 +306,31 @@ TEST_P(LateActionTest, WindowIsLeftAloneUntilTheActionHasReturnedAndUsableThen) 
 
 INSTANTIATE_TEST_SUITE_P(
     Actions, LateActionTest,
-    ::testing::Values(
-        LateAction{1U, "on_initialize", {"a.initialize"}, true, false, {}, {}},
-        LateAction{2U, "on_startup", {"a.startup"}, true, false, {}, {}},
-        LateAction{3U,
-                   "on_activated",
-                   {"a.startup", "b.startup", "c.startup", "a.activated", "c.shutdown"},
-                   true,
-                   true,
-                   {"b.deactivated", "a.deactivated", "a.shutdown", "b.shutdown"},
-                   {"a.deactivated", "a.shutdown", "b.shutdown"}},
-        LateAction{4U,
-                   "on_deactivated",
-                   {"c.deactivated", "c.shutdown"},
-                   false,
-                   true,
-                   {"a.deactivated", "a.shutdown", "b.shutdown"},
-                   {"b.deactivated", "a.deactivated", "a.shutdown", "b.shutdown"}},
-        LateAction{5U,
-                   "on_shutdown",
-                   {"c.deactivated", "c.shutdown", "b.deactivated", "a.deactivated", "a.shutdown"},
-                   false,
-                   false,
-                   {},
-                   {}},
-        LateAction{6U, "on_finalize", {"c.finalize"}, false, false, {}, {}}),
+    ::testing::Values(LateAction{1U, "on_initialize", {"a.initialize"}, true, false, {}, {}},
+                      LateAction{2U, "on_startup", {"a.startup"}, true, false, {}, {}},
+                      LateAction{3U,
+                                 "on_activated",
+                                 {"a.startup", "b.startup", "c.startup", "a.activated", "c.shutdown"},
+                                 true,
+                                 true,
+                                 {"b.deactivated", "a.deactivated", "a.shutdown", "b.shutdown"},
+                                 {"a.deactivated", "a.shutdown", "b.shutdown"}},
+                      LateAction{4U,
+                                 "on_deactivated",
+                                 {"c.deactivated", "c.shutdown"},
+                                 false,
+                                 true,
+                                 {"a.deactivated", "a.shutdown", "b.shutdown"},
+                                 {"b.deactivated", "a.deactivated", "a.shutdown", "b.shutdown"}},
+                      LateAction{
+                          5U,
+                          "on_shutdown",
+                          {"c.deactivated", "c.shutdown", "b.deactivated", "a.deactivated", "a.shutdown"},
+                          false,
+                          false,
+                          {},
+                          {}},
+                      LateAction{6U, "on_finalize", {"c.finalize"}, false, false, {}, {}}),
     [](const auto& row) { return row.param.name; });
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations of a context whose actions an ActionCaller calls. Alone in its file: a program without a guard does
-// not link it.
+// Operations of a context whose actions an ActionCaller calls. Alone in its file: a program without a guard
+// does not link it.
 #include "context_start.hpp"
 
 namespace mamori {
@@ -32,9 +32,9 @@ Status ExecutionContext::act(ComponentAction action, std::size_t position, Insta
                              ActionCaller& caller) noexcept {
     action_ = action;
     cycle_start_ = now;
-    const bool has_returned = caller.call({&run_action, this, static_cast<std::size_t>(id_), position, position,
-                                           1U, WindowHost::Pass::kAction},
-                                          action);
+    const bool has_returned = caller.call(
+        {&run_action, this, static_cast<std::size_t>(id_), position, position, 1U, WindowHost::Pass::kAction},
+        action);
     return has_returned ? action_result_ : Status::kError;
 }
 

@@ -79,12 +79,12 @@ class Hanger final : public Component {
 };
 
 // One table per test: a component belongs to one executive as long as it is alive.
-#define MAMORI_TEST_SYSTEM(name)                                                                        \
-    Idle g_idle_##name;                                                                                 \
-    Hanger g_hanger_##name;                                                                             \
-    constexpr auto name =                                                                               \
-        system(frame(10_ms), action_budget(kBudget),                                                    \
-               window("idle", 2_ms, 4_ms, core(MAMORI_IDLE_CORE), budget(4_ms), run(g_idle_##name)),    \
+#define MAMORI_TEST_SYSTEM(name)                                                                     \
+    Idle g_idle_##name;                                                                              \
+    Hanger g_hanger_##name;                                                                          \
+    constexpr auto name =                                                                            \
+        system(frame(10_ms), action_budget(kBudget),                                                 \
+               window("idle", 2_ms, 4_ms, core(MAMORI_IDLE_CORE), budget(4_ms), run(g_idle_##name)), \
                window("hang", 2_ms, 4_ms, core(1U - MAMORI_IDLE_CORE), budget(4_ms), run(g_hanger_##name)))
 
 #define MAMORI_IDLE_CORE 0U

@@ -87,9 +87,9 @@ class Hanger final : public Component {
 };
 Counter g_near;
 Hanger g_hanger;
-constexpr auto kActions = system(frame(1000_ns), action_budget(700_ns),
-                                 window("near", 0_ns, 300_ns, budget(200_ns), run(g_near)),
-                                 window("far", 400_ns, 500_ns, core(1U), budget(400_ns), run(g_hanger)));
+constexpr auto kActions =
+    system(frame(1000_ns), action_budget(700_ns), window("near", 0_ns, 300_ns, budget(200_ns), run(g_near)),
+           window("far", 400_ns, 500_ns, core(1U), budget(400_ns), run(g_hanger)));
 
 MAMORI_CONSTINIT Machine<kRuns> g_machine;
 
@@ -234,7 +234,9 @@ TEST(VirtualMachineTest, ActionsTakeNoTimeOfTheTimeLine) {
     Duration duration{500};
     IndexedVirtualHost host{{&duration, 1U}};
     int calls = 0;
-    const auto count = [](void* argument, std::size_t, std::size_t) noexcept { ++*static_cast<int*>(argument); };
+    const auto count = [](void* argument, std::size_t, std::size_t) noexcept {
+        ++*static_cast<int*>(argument);
+    };
     WindowHost::Work work{count, &calls, 0U, 0U, 0U, 1U, WindowHost::Pass::kAction};
 
     EXPECT_EQ(host.run_within(work, host.get_now() + 500_ns), 1U);

@@ -25,9 +25,9 @@ namespace mamori::ports::posix_rt {
 /// Settings of a machine. Each default suits a system of a few milliseconds per major frame on a shared host.
 struct MachineOptions {
     /// Disables the outputs permanently: at a signal, a crash, an expired watchdog, a finding of the schedule
-    /// watch, an action outside windows that exceeds its budget, and at the end of each run. Called on any thread or in a signal handler; called again by
-    /// another thread while a call has not returned: system calls and stores only, nothing that waits.
-    /// Without a function, the system has no outputs.
+    /// watch, an action outside windows that exceeds its budget, and at the end of each run. Called on any
+    /// thread or in a signal handler; called again by another thread while a call has not returned: system
+    /// calls and stores only, nothing that waits. Without a function, the system has no outputs.
     OutputGate outputs{};
     /// SCHED_FIFO priority of the threads that run the windows, kPriorityMin .. kPriorityMax. The windows run
     /// kPriorityStep below, the schedule watch kPriorityStep above, and the watchdog above that.
