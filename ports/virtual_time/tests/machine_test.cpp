@@ -195,17 +195,16 @@ TEST(VirtualMachineTest, FailureOfTheStopIsReturned) {
 TEST(VirtualMachineTest, ActionThatExceedsItsBudgetIsNamedAndAnActionWithinItIsNot) {
     verifies("SWR-VTM-015", Technique::kBoundaryValues, Polarity::kViolation);
     static Machine<kActions> sut;
-    VirtualHost& host = sut.get_host_of<1U>();
-    g_hanger.host = &host;
-    const auto run = [&host](ComponentAction before, Duration duration) {
+    g_hanger.host = &sut.get_host_of<1U>();
+    const auto run = [](ComponentAction before, Duration duration) {
         // The component is initialised once: the first action of any later run is on_startup.
         const bool is_first = before == ComponentAction::kInitialize;
-        EXPECT_EQ(host.set_duration(g_hanger, is_first ? duration : 0_ns), Status::kOk);
+        EXPECT_EQ(g_hanger.host->set_duration(g_hanger, is_first ? duration : 0_ns), Status::kOk);
         g_hanger.before = before;
         g_hanger.duration = duration;
         const Status status = sut.run(1U);
         EXPECT_EQ(sut.get_action_overrun().component, status == Status::kOk ? kNoIndex : 1U);
-        EXPECT_EQ(host.set_duration(g_hanger, 0_ns), Status::kOk);
+        EXPECT_EQ(g_hanger.host->set_duration(g_hanger, 0_ns), Status::kOk);
         return status;
     };
     EXPECT_EQ(run(ComponentAction::kInitialize, kNever), Status::kError);
