@@ -441,6 +441,16 @@ TEST(CompileFailTest, AModelledTimeBelowZeroIsRejected) {
     expect_refused("modelled_times", "", "ModelledTimeIsNotNegative<Producer, mamori::rules::Row<0>", "3");
 }
 
+TEST(CompileFailTest, AnActionBudgetOutsideItsRangeIsRejected) {
+    verifies("SWR-KRN-092", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("modelled_times", "", "ActionBudgetIsInRange<mamori::rules::Row<0>", "4");
+}
+
+TEST(CompileFailTest, ASecondActionBudgetIsRejected) {
+    verifies("SWR-KRN-092", Technique::kInterface, Polarity::kViolation);
+    expect_refused("modelled_times", "", "duplicate action_budget(...); specify it at most once", "5");
+}
+
 TEST(CompileFailTest, ACheckedTableThatBreaksARuleOrIsThatOfAnotherExecutiveIsRefused) {
     verifies("SWR-KRN-070", Technique::kErrorGuessing, Polarity::kViolation);
     expect_explained("windows", "checked_table", "the system table violates a rule", "1");

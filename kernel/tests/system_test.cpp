@@ -98,6 +98,31 @@ TEST(SystemTest, TheFirstInvalidModelledTimeIsFound) {
     EXPECT_EQ(find({&g_relay, 1_us}, 0_us).rule, Rule::kModelledTimeStatedTwice);
 }
 
+TEST(SystemTest, ActionBudgetIsThatOfTheTableOrOneSecond) {
+    verifies("SWR-KRN-092");
+    Portless only;
+    const auto table =
+        system(frame(1_ms), window("all", 0_us, 100_us, budget(50_us), run(only)), action_budget(20_ms));
+
+    EXPECT_EQ(choose_action_budget(table.action_budgets), 20_ms);
+    EXPECT_EQ(choose_action_budget(kSystem.action_budgets), Duration{1'000'000'000});
+    EXPECT_EQ(check_action_budget(kSystem.action_budgets).rule, Rule::kNone);
+}
+
+TEST(SystemTest, ActionBudgetOutsideItsRangeIsFound) {
+    verifies("SWR-KRN-092", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto find = [](std::int64_t budget_ns) {
+        const std::array<Duration, 1U> stated{Duration{budget_ns}};
+        return check_action_budget(stated).rule;
+    };
+
+    EXPECT_EQ(find(0), Rule::kActionBudgetOutOfRange);
+    EXPECT_EQ(find(-1), Rule::kActionBudgetOutOfRange);
+    EXPECT_EQ(find(1), Rule::kNone);
+    EXPECT_EQ(find(3'600'000'000'000), Rule::kNone);
+    EXPECT_EQ(find(3'600'000'000'001), Rule::kActionBudgetOutOfRange);
+}
+
 TEST(SystemTest, IndicesAreThoseOfTheViewAtRunTime) {
     verifies("SWR-KRN-063");
     const SystemView view = make_view(kSystem);

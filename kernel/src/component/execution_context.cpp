@@ -2,9 +2,9 @@
 #include "mamori/kernel/component/execution_context.hpp"
 
 #include "action_scope.hpp"
+#include "context_start.hpp"
 #include "mamori/kernel/base/remainder.hpp"
 #include "mamori/kernel/component/detail/event_server.hpp"
-#include "mamori/kernel/component/external_trigger.hpp"
 #include "mamori/kernel/component/multi_mode.hpp"
 
 namespace mamori {
@@ -144,58 +144,22 @@ Status ExecutionContext::detach() noexcept {
 }
 
 Status ExecutionContext::start(Instant now) noexcept {
-    if (id_ < 0 || is_running_ || is_busy()) {
-        return Status::kPreconditionNotMet;
-    }
-    refusing_position_ = kNoPosition;
-    for (std::size_t i = 0U; i < participants_.size(); ++i) {
-        if (!participants_[i]->is_alive()) {
-            refusing_position_ = i;
-            return Status::kPreconditionNotMet;
-        }
-    }
-    const ContextHandle handle = make_handle(now);
-    for (std::size_t i = 0U; i < participants_.size(); ++i) {
-        const ActionScope scope{*this, i};
-        const Status result = participants_[i]->on_startup(handle);
-        note(*participants_[i], ComponentAction::kStartup, result, handle);
-        if (result != Status::kOk) {
-            for (std::size_t started = 0U; started < i; ++started) {
-                // The caller must receive the startup failure; a second failure would only hide it.
-                note(*participants_[started], ComponentAction::kShutdown,
-                     participants_[started]->on_shutdown(handle), handle);
-            }
-            refusing_position_ = i;
-            return result;
-        }
-    }
-    is_running_ = true;
-    windows_to_skip_ = 0;
-    if (plan_.trigger != nullptr) {
-        plan_.trigger->ignore_waiting();
-    }
-    return Status::kOk;
+    return start_by(now);
 }
 
 Status ExecutionContext::stop(Instant now) noexcept {
-    if (!is_running_ || is_busy()) {
-        return Status::kPreconditionNotMet;
-    }
-    is_running_ = false;
-    Status first_failure = Status::kOk;
+    return stop_by(now);
+}
+
+/// Calls on_startup or on_shutdown.
+Status ExecutionContext::act(ComponentAction action, std::size_t position, Instant now) noexcept {
+    Component& component = *participants_[position];
     const ContextHandle handle = make_handle(now);
-    for (std::size_t i = 0U; i < participants_.size(); ++i) {
-        if (!participants_[i]->is_alive()) {
-            continue;  // exit() has ended it
-        }
-        const ActionScope scope{*this, i};
-        const Status result = participants_[i]->on_shutdown(handle);
-        note(*participants_[i], ComponentAction::kShutdown, result, handle);
-        if (first_failure == Status::kOk) {
-            first_failure = result;
-        }
-    }
-    return first_failure;
+    const ActionScope scope{*this, position};
+    const Status result =
+        action == ComponentAction::kStartup ? component.on_startup(handle) : component.on_shutdown(handle);
+    note(component, action, result, handle);
+    return result;
 }
 
 Result<std::size_t> ExecutionContext::find(const Component& component) const noexcept {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/kernel/run/detail/system_life.hpp"
 
+#include "system_start.hpp"
+
 namespace mamori::detail {
 namespace {
 
@@ -35,13 +37,14 @@ void SystemLife::check_table() noexcept {
     failed_component_ = find_faulty_component(view, finding);
 }
 
-bool SystemLife::is_any_running() const noexcept {
-    for (const WindowState& state : get_core().windows) {
-        if (state.context.is_running()) {
-            return true;
-        }
+/// Whether a context runs, or aborted work of it has not returned. Readmits the others.
+bool SystemLife::is_any_in_use() noexcept {
+    bool is_in_use = false;
+    for (WindowState& state : get_core().windows) {
+        const bool is_idle = runner_.readmit(state);
+        is_in_use = is_in_use || !is_idle || state.context.is_running();
     }
-    return false;
+    return is_in_use;
 }
 
 bool SystemLife::is_any_active() const noexcept {
@@ -66,22 +69,6 @@ std::size_t SystemLife::find_invalid_parameter() const noexcept {
         }
     }
     return kNoIndex;
-}
-
-Status SystemLife::initialize_components() noexcept {
-    const CoreState& core = get_core();
-    for (std::size_t i = 0U; i < core.view.components.size(); ++i) {
-        Component& component = *core.view.components[i];
-        if (!core.is_own(core.view.component_rows[i].window) || component.is_alive()) {
-            continue;
-        }
-        const Status result = component.initialize();
-        if (result != Status::kOk) {
-            failed_component_ = i;
-            return result;
-        }
-    }
-    return Status::kOk;
 }
 
 Status SystemLife::attach_contexts() noexcept {
@@ -121,7 +108,7 @@ Status ModeFollower::judge_absence() const noexcept {
     return is_needed ? Status::kPreconditionNotMet : Status::kOk;
 }
 
-Status SystemLife::initialize() noexcept {
+Status SystemLife::prepare_initialization() noexcept {
     check_table();
     if (!is_table_valid_) {
         return Status::kBadParameter;
@@ -130,19 +117,8 @@ Status SystemLife::initialize() noexcept {
     if (failed_component_ != kNoIndex) {
         return Status::kBadParameter;
     }
-    Status result = runner_.get_modes().initialize();
-    if (result == Status::kOk) {
-        result = initialize_components();
-    }
-    if (result == Status::kOk) {
-        result = attach_contexts();
-    }
-    if (result == Status::kOk) {
-        runner_.prepare_work();
-        runner_.get_data_flow().attach_inputs();
-    }
-    is_initialized_ = result == Status::kOk;
-    return result;
+    runner_.prepare_work();
+    return runner_.get_modes().initialize();
 }
 
 /// First component of the table that no executive has attached; kNoIndex: none.
@@ -156,110 +132,9 @@ std::size_t SystemLife::find_component_without_context() const noexcept {
     return kNoIndex;
 }
 
-Status SystemLife::start_contexts() noexcept {
-    CoreState& core = get_core();
-    for (std::size_t w = 0U; w < core.view.windows.size(); ++w) {
-        ExecutionContext& context = core.windows[w].context;
-        if (!core.is_own(w)) {
-            continue;
-        }
-        const Status result = context.start(core.release);
-        if (result != Status::kOk) {
-            failed_component_ =
-                core.view.windows[w].first_component + context.get_refusing_position().get_value();
-            return result;
-        }
-    }
-    return Status::kOk;
-}
-
-Status SystemLife::activate_components() noexcept {
-    CoreState& core = get_core();
-    const ModeMask held = runner_.get_modes().get_held_modes();
-    for (std::size_t i = 0U; i < core.view.components.size(); ++i) {
-        const ComponentRow& row = core.view.component_rows[i];
-        if (!core.is_own(row.window) || (row.modes & held) != held) {
-            continue;
-        }
-        const Status result =
-            core.windows[row.window].context.activate_component(*core.view.components[i], core.release);
-        if (result != Status::kOk) {
-            failed_component_ = i;
-            return result;
-        }
-    }
-    return Status::kOk;
-}
-
-Status SystemLife::start() noexcept {
-    failed_component_ = find_component_without_context();
-    if (failed_component_ != kNoIndex) {
-        return Status::kPreconditionNotMet;
-    }
-    Status result = runner_.get_modes().join();
-    if (result != Status::kOk) {
-        return result;
-    }
-    runner_.get_data_flow().clear_ports();
-    result = start_contexts();
-    if (result == Status::kOk) {
-        result = activate_components();
-    }
-    if (result != Status::kOk) {
-        // The caller must receive the first failure, so a failure of stop() is ignored.
-        static_cast<void>(stop());
-    }
-    return result;
-}
-
-Status SystemLife::stop() noexcept {
-    CoreState& core = get_core();
-    Status first_failure = Status::kOk;
-    const auto keep_first = [&first_failure](Status result) noexcept {
-        if (first_failure == Status::kOk) {
-            first_failure = result;
-        }
-    };
-    for (std::size_t w = core.view.windows.size(); w-- > 0U;) {
-        const WindowRow& row = core.view.windows[w];
-        WindowState& state = core.windows[w];
-        static_cast<void>(runner_.readmit(state));
-        for (std::size_t i = state.context.get_participant_count(); i-- > 0U;) {
-            if (state.context.get_state_at(i) == LifecycleState::kActive) {
-                const Component& component = *core.view.components[row.first_component + i];
-                keep_first(state.context.deactivate_component(component, core.release));
-            }
-        }
-        if (state.context.is_running()) {
-            keep_first(state.context.stop(core.release));
-        }
-        state.is_stop_due = state.context.is_running();
-    }
-    runner_.get_modes().leave();
-    return first_failure;
-}
-
-Status SystemLife::finalize() noexcept {
-    CoreState& core = get_core();
-    is_initialized_ = false;
-    runner_.get_data_flow().detach_inputs();
-    for (WindowState& state : core.windows) {
-        // Not rejected where it is attached: nothing runs and no component is Active.
-        static_cast<void>(state.context.detach());
-    }
-    Status first_failure = Status::kOk;
-    for (std::size_t i = core.view.components.size(); i-- > 0U;) {
-        Component& component = *core.view.components[i];
-        // A component that exit() ended has nothing left to finalize.
-        if (!core.is_own(core.view.component_rows[i].window) || !component.is_alive()) {
-            continue;
-        }
-        const Status result = component.finalize();
-        if (first_failure == Status::kOk) {
-            first_failure = result;
-        }
-    }
-    return first_failure;
-}
+template Status SystemLife::initialize() noexcept;
+template Status SystemLife::start() noexcept;
+template Status SystemLife::stop() noexcept;
+template Status SystemLife::finalize() noexcept;
 
 }  // namespace mamori::detail

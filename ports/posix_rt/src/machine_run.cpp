@@ -32,6 +32,28 @@ class SignalBlock final {
     sigset_t before_{};
 };
 
+/// Gives the calling thread the priority of the threads that run the windows: a guard that the windows of its
+/// actions could preempt would take their priorities.
+class RunnerPriority final {
+  public:
+    explicit RunnerPriority(int priority) noexcept {
+        MAMORI_ENSURE(6, pthread_getschedparam(pthread_self(), &policy_, &before_) == 0);
+        is_raised_ = get_own_priority() < priority && set_priority(pthread_self(), priority).is_granted;
+    }
+    RunnerPriority(const RunnerPriority&) = delete;
+    RunnerPriority& operator=(const RunnerPriority&) = delete;
+    ~RunnerPriority() {
+        if (is_raised_) {
+            static_cast<void>(pthread_setschedparam(pthread_self(), policy_, &before_));
+        }
+    }
+
+  private:
+    int policy_{0};
+    sched_param before_{};
+    bool is_raised_{false};
+};
+
 bool is_valid(const MachineOptions& options, const MachineParts& parts) noexcept {
     const Duration frame = parts.executives.get(0U).get_view().frame;
     const GridLimits& watch = options.watch;
@@ -91,34 +113,8 @@ Status open_hosts(Span<GuardedHost> hosts, int runner_priority) noexcept {
 
 }  // namespace
 
-const char* describe(MachineStep step) noexcept {
-    switch (step) {
-        case MachineStep::kNone:
-            return "no failure";
-        case MachineStep::kOptions:
-            return "an option of the machine or the number of frames is out of range";
-        case MachineStep::kRecorder:
-            return "the file of the flight recorder cannot be used";
-        case MachineStep::kSignals:
-            return "another machine runs in this process";
-        case MachineStep::kCrashHandlers:
-            return "this process has other crash handlers";
-        case MachineStep::kWindowThreads:
-            return "the threads of the windows cannot be started, or work of an earlier run still hangs";
-        case MachineStep::kStart:
-            return "a component or the table prevents the start";
-        case MachineStep::kWatch:
-            return "the thread of the schedule watch cannot be started";
-        case MachineStep::kWatchdog:
-            return "the thread of the watchdog cannot be started";
-        case MachineStep::kRunnerThreads:
-            return "the threads that run the windows cannot be started";
-        case MachineStep::kFrames:
-            return "the schedule watch closed the outputs";
-        case MachineStep::kStop:
-            return "a component failed at the stop, or its work hangs";
-    }
-    return "unknown step";  // only a corrupted value gets here
+void MachineGuard::on_action_overrun(std::size_t component, ComponentAction action) noexcept {
+    run_.end_action(component, executive_.get_view().components[component]->get_name(), action);
 }
 
 DeviceCaller::DeviceCaller(const SystemView& view, std::size_t core, Devices& devices,
@@ -236,6 +232,17 @@ void MachineRun::end_frame(Instant now) noexcept {
     }
 }
 
+void MachineRun::end_action(std::size_t component, const char* name, ComponentAction action) noexcept {
+    close_outputs(this);
+    if (report_.late_component == nullptr) {
+        report_.late_component = name;
+        report_.late_action = get_name(action);
+    }
+    const std::int64_t number = static_cast<std::int64_t>(action);
+    record(clock_->get_now(), MachineEvent::kActionOverrun, Severity::kFault,
+           number * (std::int64_t{1} << 32) + static_cast<std::int64_t>(component));
+}
+
 Status MachineRun::open_recorder(const MachineOptions& options) noexcept {
     if (options.recorder == nullptr || recorder_.is_open()) {
         return Status::kOk;
@@ -307,15 +314,12 @@ Status MachineRun::run_protected(const MachineParts& parts, const MachineOptions
     if (const Status installed = handlers.install(make_plan()); installed != Status::kOk) {
         return fail(MachineStep::kCrashHandlers, installed);
     }
-    if (has_run_ && has_returned(parts)) {
-        // Ends what work that hung at the end of the last run has held up.
-        static_cast<void>(parts.executives.stop());
-        static_cast<void>(close_hosts(parts.hosts));
-    }
+    // Threads whose work hung at the end of the last run and has returned since.
+    static_cast<void>(close_hosts(parts.hosts));
     if (const Status opened = open_hosts(parts.hosts, options.priority); opened != Status::kOk) {
         return fail(MachineStep::kWindowThreads, opened);
     }
-    Status status = fail(MachineStep::kStart, parts.executives.start());
+    Status status = fail(MachineStep::kStart, start(parts, options.priority));
     if (status == Status::kOk && !has_clock_.load(std::memory_order_relaxed)) {
         // Major frame 0 begins after the start, however long it takes. Crash notes are on the same time line.
         parts.clock = FrameClock::starting_in(options.lead);
@@ -330,7 +334,7 @@ Status MachineRun::run_protected(const MachineParts& parts, const MachineOptions
         status = run_watched(parts, options, frames);
         close_outputs(this);
         record_end_of_frames();
-        const Status stopped = fail(MachineStep::kStop, stop(parts));
+        const Status stopped = fail(MachineStep::kStop, stop(parts, options.priority));
         status = status == Status::kOk ? stopped : status;
     } else {
         static_cast<void>(close_hosts(parts.hosts));
@@ -452,9 +456,17 @@ void MachineRun::collect(const MachineParts& parts) noexcept {
     report_.longest_apply = parts.devices.get_longest_apply();
 }
 
-Status MachineRun::stop(const MachineParts& parts) noexcept {
+Status MachineRun::start(const MachineParts& parts, int priority) noexcept {
+    const RunnerPriority raised{priority};
+    // Ends what work that hung at the end of the last run has held up. Without such work, nothing is called.
+    static_cast<void>(parts.executives.stop(parts.guards));
+    return parts.executives.start(parts.guards);
+}
+
+Status MachineRun::stop(const MachineParts& parts, int priority) noexcept {
+    const RunnerPriority raised{priority};
     wait_for_return(parts);
-    const Status stopped = parts.executives.stop();
+    const Status stopped = parts.executives.stop(parts.guards);
     const Status closed = close_hosts(parts.hosts);
     return stopped == Status::kOk ? closed : stopped;
 }

@@ -3,9 +3,10 @@
 
 namespace mamori::ports::virtual_time {
 
-Status MachineBase::run(ExecutiveGroup& executives, Span<SimulatedCore> cores, std::uint64_t frames,
-                        Devices& devices) noexcept {
-    const Status started = executives.start();
+Status MachineBase::run(ExecutiveGroup& executives, Span<SimulatedCore> cores,
+                        Span<ActionGuard* const> guards, std::uint64_t frames, Devices& devices) noexcept {
+    overrun_ = {};
+    const Status started = executives.start(guards);
     if (started != Status::kOk) {
         is_stop_wanted_.store(false, std::memory_order_relaxed);
         return started;
@@ -21,7 +22,7 @@ Status MachineBase::run(ExecutiveGroup& executives, Span<SimulatedCore> cores, s
     is_stop_wanted_.store(false, std::memory_order_relaxed);
     frame_count_ = runner.get_frame_count();
     overrun_count_ += runner.get_overrun_count();
-    return executives.stop();
+    return executives.stop(guards);
 }
 
 }  // namespace mamori::ports::virtual_time

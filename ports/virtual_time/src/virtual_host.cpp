@@ -6,6 +6,7 @@
 namespace mamori::ports::virtual_time {
 
 std::size_t VirtualHost::run_within(const Work& work, Instant deadline) noexcept {
+    const bool takes_time = work.pass != Pass::kAction;
     for (std::size_t i = 0U; i < work.count; ++i) {
         const std::size_t component = work.component + i;
         const bool is_modelled = work.pass != Pass::kStateUpdate && component < durations_.size();
@@ -19,10 +20,10 @@ std::size_t VirtualHost::run_within(const Work& work, Instant deadline) noexcept
             work.run(work.argument, work.first + i, work.first + i + 1U);
         }
         if (!is_in_time) {
-            advance_to(cut_off);
+            advance_to(takes_time ? cut_off : now_);
             return i;
         }
-        now_ = step_end_;
+        now_ = takes_time ? step_end_ : now_;
     }
     return work.count;
 }

@@ -63,6 +63,34 @@ MAMORI_TEST_SYSTEM(kFailsAtStart);
 MAMORI_TEST_SYSTEM(kFailsAtStop);
 MAMORI_TEST_SYSTEM(kSlow);
 
+/// Gives itself a modelled time in one of its actions, so that the next action has it.
+class Hanger final : public Component {
+  public:
+    constexpr Hanger() noexcept : Component("hanger") {}
+    VirtualHost* host{nullptr};
+    ComponentAction before{ComponentAction::kExecute};  ///< the action before the one that is to be late
+    Duration duration{kNever};
+    int cycles{0};
+
+    Status on_startup(ContextHandle) noexcept override { return act(ComponentAction::kStartup); }
+    Status on_activated(ContextHandle) noexcept override { return act(ComponentAction::kActivated); }
+    Status on_execute(ContextHandle) noexcept override {
+        ++cycles;
+        return act(ComponentAction::kExecute);
+    }
+    Status on_deactivated(ContextHandle) noexcept override { return act(ComponentAction::kDeactivated); }
+
+  private:
+    Status act(ComponentAction action) noexcept {
+        return action == before ? host->set_duration(*this, duration) : Status::kOk;
+    }
+};
+Counter g_near;
+Hanger g_hanger;
+constexpr auto kActions =
+    system(frame(1000_ns), action_budget(700_ns), window("near", 0_ns, 300_ns, budget(200_ns), run(g_near)),
+           window("far", 400_ns, 500_ns, core(1U), budget(400_ns), run(g_hanger)));
+
 MAMORI_CONSTINIT Machine<kRuns> g_machine;
 
 class SpyDevices final : public Devices {
@@ -162,6 +190,61 @@ TEST(VirtualMachineTest, FailureOfTheStopIsReturned) {
 
     EXPECT_EQ(sut.run(1U, devices), Status::kOutOfResources);
     EXPECT_EQ(devices.applied.size(), 1U);
+}
+
+TEST(VirtualMachineTest, ActionThatExceedsItsBudgetIsNamedAndAnActionWithinItIsNot) {
+    verifies("SWR-VTM-015", Technique::kBoundaryValues, Polarity::kViolation);
+    static Machine<kActions> sut;
+    g_hanger.host = &sut.get_host_of<1U>();
+    const auto run = [](ComponentAction before, Duration duration) {
+        // The component is initialised once: the first action of any later run is on_startup.
+        const bool is_first = before == ComponentAction::kInitialize;
+        EXPECT_EQ(g_hanger.host->set_duration(g_hanger, is_first ? duration : 0_ns), Status::kOk);
+        g_hanger.before = before;
+        g_hanger.duration = duration;
+        const Status status = sut.run(1U);
+        EXPECT_EQ(sut.get_action_overrun().component, status == Status::kOk ? kNoIndex : 1U);
+        EXPECT_EQ(g_hanger.host->set_duration(g_hanger, 0_ns), Status::kOk);
+        return status;
+    };
+    EXPECT_EQ(run(ComponentAction::kInitialize, kNever), Status::kError);
+    EXPECT_EQ(sut.get_action_overrun().action, ComponentAction::kInitialize);
+    EXPECT_EQ(sut.get_executives().get_failed_core(), 1U);
+    ASSERT_EQ(run(ComponentAction::kInitialize, 700_ns), Status::kOk);
+
+    const std::array<std::array<ComponentAction, 2U>, 4U> pairs{
+        {{ComponentAction::kInitialize, ComponentAction::kStartup},
+         {ComponentAction::kStartup, ComponentAction::kActivated},
+         {ComponentAction::kExecute, ComponentAction::kDeactivated},
+         {ComponentAction::kDeactivated, ComponentAction::kShutdown}}};
+    for (const auto& [before, late] : pairs) {
+        for (const Duration duration : {701_ns, kNever}) {
+            EXPECT_EQ(run(before, duration), Status::kError) << get_name(late);
+            EXPECT_EQ(sut.get_action_overrun().action, late);
+            // What the failed run has left behind is stopped first.
+            EXPECT_EQ(sut.get_executives().stop(), Status::kOk);
+        }
+        EXPECT_EQ(run(before, 700_ns), Status::kOk) << get_name(late);
+    }
+}
+
+TEST(VirtualMachineTest, ActionsTakeNoTimeOfTheTimeLine) {
+    verifies("SWR-VTM-015", Technique::kRequirementsBased, Polarity::kNominal);
+    Duration duration{500};
+    IndexedVirtualHost host{{&duration, 1U}};
+    int calls = 0;
+    const auto count = [](void* argument, std::size_t, std::size_t) noexcept {
+        ++*static_cast<int*>(argument);
+    };
+    WindowHost::Work work{count, &calls, 0U, 0U, 0U, 1U, WindowHost::Pass::kAction};
+
+    EXPECT_EQ(host.run_within(work, host.get_now() + 500_ns), 1U);
+    EXPECT_EQ(host.run_within(work, host.get_now() + 499_ns), 0U);
+    EXPECT_EQ(calls, 2);
+    EXPECT_EQ(host.get_now(), Instant{0});
+    work.pass = WindowHost::Pass::kModeStep;
+    EXPECT_EQ(host.run_within(work, host.get_now() + 500_ns), 1U);
+    EXPECT_EQ(host.get_now(), Instant{500});
 }
 
 TEST(VirtualMachineTest, ModelledTimeOfACoreChangesAtRunTime) {

@@ -39,6 +39,18 @@ namespace real_time {
 
 static mamori::ports::posix_rt::Machine<kSystem> machine;
 
+class Valve final : public mamori::Component {
+  public:
+    constexpr Valve() noexcept : Component("valve") {}
+    mamori::Status on_startup(mamori::ContextHandle) noexcept override { return mamori::Status::kOk; /* opens a device */ }
+};
+
+static Valve valve;
+static constexpr auto kValveSystem =
+    mamori::system(mamori::frame(10_ms), mamori::action_budget(200_ms),
+                   mamori::window("valve", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(valve)));
+MAMORI_CHECK(kValveSystem);
+
 class Drive final : public mamori::Devices {
     void sample(std::uint64_t, mamori::Instant) noexcept override { /* read the encoders */ }
     void apply(std::uint64_t, mamori::Instant, mamori::Duration) noexcept override { /* send the torques */ }

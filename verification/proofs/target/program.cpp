@@ -4,6 +4,8 @@
 
 #include "arm_system.hpp"
 #include "board.hpp"
+#include "mamori/kernel/run/action_guard.hpp"
+#include "mamori/kernel/table/action_budget.hpp"
 #include "other_parts.hpp"
 #include "safety_parts.hpp"
 
@@ -43,14 +45,26 @@ bool is_refused(mamori::Status status, const char* what) noexcept {
     return true;
 }
 
+class StartGuard final : public mamori::ActionGuard {
+  public:
+    explicit StartGuard(mamori::WindowHost& host) noexcept : ActionGuard(host, mamori::kActionBudget) {}
+
+  private:
+    void on_action_overrun(std::size_t, mamori::ComponentAction action) noexcept override {
+        write_text(mamori::get_name(action));
+        write_text(" exceeded its budget\n");
+    }
+};
+
 }  // namespace
 
 int run_program() noexcept {
     mamori::set_assertion_handler(&on_failed_check);
+    StartGuard guard{virtual_host};
     if (is_refused(prepare_other_parts("slow"), "prepare the other parts") ||
         is_refused(prepare_safety_parts(), "prepare the parts of the safety layer") ||
-        is_refused(prepare(), "prepare") || is_refused(executive.initialize(), "initialize") ||
-        is_refused(executive.start(), "start")) {
+        is_refused(prepare(), "prepare") || is_refused(executive.initialize(guard), "initialize") ||
+        is_refused(executive.start(guard), "start")) {
         return kNotStarted;
     }
     ObedientDevices devices{virtual_host};

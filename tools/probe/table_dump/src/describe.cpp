@@ -224,6 +224,8 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kModelledTimeOfUnknownComponent:
         case Rule::kModelledTimeStatedTwice:
             return "modelled time: row " + std::to_string(finding.element) + " is invalid";
+        case Rule::kActionBudgetOutOfRange:
+            return "the action budget is not positive or exceeds one hour";
         case Rule::kParameterRowInvalid:
         case Rule::kSetRowInvalid:
         case Rule::kConfigurationRefused:

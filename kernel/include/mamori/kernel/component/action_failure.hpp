@@ -16,6 +16,8 @@ namespace mamori {
 /// Actions whose return code is evaluated, in the order of the standard. on_aborting and on_error are
 /// excluded, because they run after another action has failed.
 enum class ComponentAction : std::uint8_t {
+    kInitialize,
+    kFinalize,
     kStartup,
     kShutdown,
     kActivated,
@@ -31,6 +33,10 @@ enum class ComponentAction : std::uint8_t {
 /// Name of an action in the RTC standard; never nullptr.
 constexpr const char* get_name(ComponentAction action) noexcept {
     switch (action) {
+        case ComponentAction::kInitialize:
+            return "on_initialize";
+        case ComponentAction::kFinalize:
+            return "on_finalize";
         case ComponentAction::kStartup:
             return "on_startup";
         case ComponentAction::kShutdown:

@@ -18,6 +18,8 @@
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/status.hpp"
 #include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/component/action_caller.hpp"
+#include "mamori/kernel/component/action_failure.hpp"
 #include "mamori/kernel/component/component.hpp"
 #include "mamori/kernel/component/context_plan.hpp"
 #include "mamori/kernel/component/execution_record.hpp"
@@ -89,6 +91,15 @@ class ExecutionContext final {
     ///         busy); otherwise the code of on_deactivated.
     Status deactivate_component(const Component& component, Instant now) noexcept;
 
+    /// @name The same, with each action called by `caller`. After an action that does not return in time, the
+    /// operation ends with kError, and the context is busy until readmit().
+    /// @{
+    Status start(Instant now, ActionCaller& caller) noexcept;
+    Status stop(Instant now, ActionCaller& caller) noexcept;
+    Status activate_component(const Component& component, Instant now, ActionCaller& caller) noexcept;
+    Status deactivate_component(const Component& component, Instant now, ActionCaller& caller) noexcept;
+    /// @}
+
     /// Error -> Inactive, after on_reset returned kOk; otherwise the component remains in Error.
     /// @return kOk; kBadParameter (not a participant); kPreconditionNotMet (not in Error, or busy); otherwise
     ///         the code of on_reset.
@@ -137,7 +148,8 @@ class ExecutionContext final {
     /// work has not returned. @return kPreconditionNotMet: no such participant.
     Result<std::size_t> get_acting_position() const noexcept;
     /// Position of the participant that made the last start() of an attached, stopped and idle context fail:
-    /// it is not alive, or its on_startup failed. @return kPreconditionNotMet: no such participant.
+    /// it is not alive, or its on_startup failed or was late. @return kPreconditionNotMet: no such
+    /// participant.
     Result<std::size_t> get_refusing_position() const noexcept;
 
     /// @name One cycle in steps, for the executive: take_turn, begin_cycle, execute 0..n-1, update_state
@@ -252,6 +264,15 @@ class ExecutionContext final {
     static void release_participants(Span<Component* const> participants) noexcept;
     Result<std::size_t> find(const Component& component) const noexcept;
     Result<std::size_t> admit(const Component& component, LifecycleEvent event) const noexcept;
+    template <typename... Caller>
+    Status start_by(Instant now, Caller&... caller) noexcept;
+    template <typename... Caller>
+    Status stop_by(Instant now, Caller&... caller) noexcept;
+    template <typename... Caller>
+    Status shut_down(std::size_t count, Instant now, Caller&... caller) noexcept;
+    Status act(ComponentAction action, std::size_t position, Instant now) noexcept;
+    Status act(ComponentAction action, std::size_t position, Instant now, ActionCaller& caller) noexcept;
+    static void run_action(void* argument, std::size_t position, std::size_t end) noexcept;
     template <StepObservation kObservation>
     static void run_first_pass(void* argument, std::size_t first, std::size_t end) noexcept;
     static void end_step(StepObserver& observer, std::size_t position, bool was_active) noexcept;
@@ -282,11 +303,13 @@ class ExecutionContext final {
     std::int64_t divisor_{1};
     std::int64_t pending_divisor_{1};  ///< requested; equal to divisor_ without a request
     std::int64_t windows_to_skip_{0};
-    Instant cycle_start_{};
+    Instant cycle_start_{};  ///< or the instant that an operation passes to its actions
     std::size_t refusing_position_{kNoPosition};
-    std::atomic<Phase> phase_{Phase::kIdle};
     std::size_t abandoned_position_{0U};  ///< valid in kAbandoned
+    std::atomic<Phase> phase_{Phase::kIdle};
     bool is_running_{false};
+    ComponentAction action_{ComponentAction::kStartup};  ///< called by an ActionCaller
+    Status action_result_{Status::kOk};
     std::int32_t id_{-1};
 };
 

@@ -26,6 +26,7 @@ class WindowHost {
         kExecute,      ///< on_execute, or the actions that replace it in an invocation
         kStateUpdate,  ///< on_state_update
         kModeStep,     ///< on_deactivated or on_activated in a mode switch or a late stop, not in a cycle
+        kAction,       ///< an action outside windows, as on_startup: see ActionGuard
     };
 
     /// One pass over components of a window, as a range of steps. A platform host without tasks between two

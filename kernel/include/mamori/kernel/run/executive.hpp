@@ -4,7 +4,7 @@
 /// components in table order within the budget, which the platform port enforces, and forwards written values
 /// to later components. At window end, it publishes the outputs.
 ///
-/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-024, SWR-KRN-050, SWR-MOD-008
+/// @satisfies SWR-KRN-021, SWR-KRN-022, SWR-KRN-024, SWR-KRN-050, SWR-KRN-091, SWR-MOD-008
 /// Design:   docs/design/kernel.md#parts-of-the-executive
 #ifndef MAMORI_KERNEL_EXECUTIVE_HPP
 #define MAMORI_KERNEL_EXECUTIVE_HPP
@@ -30,6 +30,7 @@
 
 namespace mamori {
 
+class ActionGuard;
 class Introspection;
 
 /// Size-free executive of one core; instantiate ExecutiveFor.
@@ -88,6 +89,17 @@ class Executive {
     ///         anyway.
     Status finalize() noexcept;
 
+    /// @name The same, with each action called under the budget of `guard`. An action that exceeds its budget
+    /// makes the operation fail with kError, unless it failed before: no further action of the same window is
+    /// called in this operation, and the observer receives on_budget_overrun(). While the action hangs,
+    /// initialize(), start() and finalize() with and without guard return kPreconditionNotMet.
+    /// @{
+    Status initialize(ActionGuard& guard) noexcept;
+    Status start(ActionGuard& guard) noexcept;
+    Status stop(ActionGuard& guard) noexcept;
+    Status finalize(ActionGuard& guard) noexcept;
+    /// @}
+
     /// Runs window `index` once. Actions and publications carry the planned instants, not the measured ones,
     /// so a late release changes no data.
     /// @param[in] index   0 .. get_view().windows.size() - 1, a window of this core; else a contract
@@ -142,6 +154,7 @@ class Executive {
 
   private:
     void begin_frame(Instant release) noexcept;
+    void begin_operation(ActionGuard& guard) noexcept;
     void end_operation() noexcept;
     void show_windows() noexcept;
 

@@ -14,6 +14,7 @@
 #include "mamori/kernel/base/assert.hpp"
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/status.hpp"
+#include "mamori/kernel/run/action_guard.hpp"
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/run/system_modes.hpp"
 #include "mamori/kernel/table/checked_table.hpp"
@@ -94,6 +95,12 @@ class ExecutiveGroup {
     /// of Executive::stop(), which prevents no other stop.
     Status stop() noexcept;
 
+    /// @name The same with a guard per core. @param[in] guards at least size(); each of its own executive.
+    /// @{
+    Status start(Span<ActionGuard* const> guards) noexcept;
+    Status stop(Span<ActionGuard* const> guards) noexcept;
+    /// @}
+
     /// Core whose failure ended the last start(); kNoIndex: no core failed.
     std::size_t get_failed_core() const noexcept { return failed_core_; }
 
@@ -102,7 +109,10 @@ class ExecutiveGroup {
     ~ExecutiveGroup() = default;
 
   private:
-    Status initialize() noexcept;
+    template <typename... Guards>
+    Status start_by(const Guards&... guards) noexcept;
+    template <typename... Guards>
+    Status stop_by(const Guards&... guards) noexcept;
 
     Span<Executive* const> executives_;
     std::size_t initialized_count_{0U};  ///< executives whose initialize() succeeded, core 0 first

@@ -76,6 +76,10 @@ constexpr void add_part(Builder& builder, const PublicationMarginPart& part) noe
     builder.table.publication_margin = part.margin;
 }
 template <typename Builder>
+constexpr void add_part(Builder& builder, const ActionBudgetPart& part) noexcept {
+    builder.table.action_budgets[0U] = part.budget;
+}
+template <typename Builder>
 constexpr void add_part(Builder& builder, const TraceHashPart&) noexcept {
     builder.table.has_trace_hash = true;
 }
@@ -108,6 +112,7 @@ struct DescribedSystem : detail::TableOf<PartTypes> {
     using Types = PartTypes;
     /// Rows that no executive reads, so the view of the table does not have them.
     std::array<ModelledTimeRow, Types::ModelledComponents::kSize> modelled_times{};
+    std::array<Duration, Types::kActionBudgets> action_budgets{};  ///< none, or the one that is stated
 };
 
 /// Builds the table from a major frame and its parts, in any order. Windows, components, ports, connections,
@@ -131,6 +136,7 @@ constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
     static_assert(detail::kTimesSaid<AbortPolicyPart, Parts...> <= 1U, "abort_policy(...) is said once");
     static_assert(detail::kTimesSaid<PublicationMarginPart, Parts...> <= 1U,
                   "duplicate publication_margin(...); specify it at most once");
+    static_assert(Types::kActionBudgets <= 1U, "duplicate action_budget(...); specify it at most once");
     static_assert(detail::kTimesSaid<TraceHashPart, Parts...> <= 1U,
                   "duplicate trace_hash(); specify it at most once");
     detail::TableBuilder<DescribedSystem<Types>> builder{};

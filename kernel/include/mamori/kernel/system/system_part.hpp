@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Parts of a description that apply to the whole system: major frame, abort policy, publication margin,
-/// trace hash and modelled times.
+/// action budget, trace hash and modelled times.
 ///
-/// @satisfies SWR-KRN-017, SWR-KRN-050, SWR-KRN-051, SWR-KRN-064      Design:
+/// @satisfies SWR-KRN-017, SWR-KRN-050, SWR-KRN-051, SWR-KRN-064, SWR-KRN-092      Design:
 /// docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_SYSTEM_PART_HPP
 #define MAMORI_KERNEL_SYSTEM_PART_HPP
+
+#include <cstddef>
 
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/context_plan.hpp"
@@ -63,6 +65,20 @@ struct PublicationMarginPart {
 /// @param[in] margin >= 0; MAMORI_CHECK rejects a negative one and a reader that starts earlier.
 constexpr PublicationMarginPart publication_margin(Duration margin) noexcept {
     return {margin};
+}
+
+/// Made by action_budget().
+struct ActionBudgetPart {
+    struct Types : detail::NoTypes {
+        static constexpr std::size_t kActionBudgets = 1U;
+    };
+    Duration budget;
+};
+/// Maximum time of each action that a machine calls outside windows, as on_startup; without this part 1 s
+/// (kActionBudget). A machine closes the outputs when an action exceeds it.
+/// @param[in] budget > 0, at most 1 h; MAMORI_CHECK rejects any other.
+constexpr ActionBudgetPart action_budget(Duration budget) noexcept {
+    return {budget};
 }
 
 /// Made by trace_hash().

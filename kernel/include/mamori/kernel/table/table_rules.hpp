@@ -115,6 +115,8 @@
       "a modelled time is that of a component that a window runs")                                         \
     X(ModelledTimeStatedTwice, ModelledTimeIsStatedOnce, ModelledTime,                                     \
       "the modelled time of a component is stated once")                                                   \
+    X(ActionBudgetOutOfRange, ActionBudgetIsInRange, Row,                                                  \
+      "the budget of an action outside windows is positive and at most one hour")                          \
     X(ModeRowInvalid, ModeRowIsValid, Row, "a mode has a name and is one of the first 32")                 \
     X(ModeNamedTwice, ModeHasANameOfItsOwn, Mode, "each mode has a name of its own")                       \
     X(ModeOfUnknownComponent, ModeRunsComponentsOfTheTable, ModeMember,                                    \

@@ -37,6 +37,7 @@ struct WindowState {
     ExecutionContext::StepObserver step_observer{};  ///< observes the first pass if `is_observed`
     bool is_observed{false};                         ///< the first pass has a step observer
     bool is_stop_due{false};            ///< stop() could not stop the context, because its work hangs
+    std::uint8_t life_result{0U};       ///< Status of the last on_initialize or on_finalize under a guard
     const WindowHost* cut_by{nullptr};  ///< aborted work of this window that may still run
     Instant crossed_at{kNoFrame};       ///< major frame whose boundary the window crossed last
     ModeMask held_modes{0U};            ///< serves the connections active in all of these modes

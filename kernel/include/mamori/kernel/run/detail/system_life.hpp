@@ -17,6 +17,7 @@
 namespace mamori::detail {
 
 /// Each operation is the one of Executive with its name; the executive calls it only if may_...() permits it.
+/// `guard` is empty or one ActionGuard; an operation with a guard is linked only if a program uses it.
 ///
 /// Thread safety: as Executive.
 /// Time:          O(components + connections + ports) of the table; initialize() also checks the table.
@@ -38,30 +39,40 @@ class SystemLife final {
     /// The last check_table() found no violated rule.
     bool is_table_valid() const noexcept { return is_table_valid_; }
 
-    bool may_initialize() const noexcept { return !is_initialized_; }
-    Status initialize() noexcept;
+    bool may_initialize() noexcept { return !is_initialized_ && !is_any_in_use(); }
+    template <typename... Guard>
+    Status initialize(Guard&... guard) noexcept;
 
-    bool may_start() const noexcept { return is_initialized_ && !is_any_running(); }
-    Status start() noexcept;
+    bool may_start() noexcept { return is_initialized_ && !is_any_in_use(); }
+    template <typename... Guard>
+    Status start(Guard&... guard) noexcept;
 
     bool may_stop() const noexcept { return is_initialized_; }
-    Status stop() noexcept;
+    template <typename... Guard>
+    Status stop(Guard&... guard) noexcept;
 
-    bool may_finalize() const noexcept { return may_start() && !is_any_active(); }
-    Status finalize() noexcept;
+    bool may_finalize() noexcept { return may_start() && !is_any_active(); }
+    template <typename... Guard>
+    Status finalize(Guard&... guard) noexcept;
 
     /// Component whose failure ended the last initialize() or start(); kNoIndex: none.
     std::size_t get_failed_component() const noexcept { return failed_component_; }
 
   private:
-    bool is_any_running() const noexcept;
+    bool is_any_in_use() noexcept;
     bool is_any_active() const noexcept;
     std::size_t find_invalid_parameter() const noexcept;
-    Status initialize_components() noexcept;
+    Status prepare_initialization() noexcept;
+    template <typename... Guard>
+    Status initialize_components(Guard&... guard) noexcept;
     Status attach_contexts() noexcept;
     std::size_t find_component_without_context() const noexcept;
-    Status start_contexts() noexcept;
-    Status activate_components() noexcept;
+    template <typename... Guard>
+    Status start_contexts(Guard&... guard) noexcept;
+    template <typename... Guard>
+    Status activate_components(Guard&... guard) noexcept;
+    template <typename... Guard>
+    Status stop_windows(Guard&... guard) noexcept;
 
     WindowRunner runner_;
     std::size_t failed_component_{kNoIndex};

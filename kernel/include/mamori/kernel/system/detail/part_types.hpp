@@ -35,6 +35,7 @@ struct NoTypes {
     static constexpr std::size_t kModes = 0U;
     static constexpr std::size_t kModeTransitions = 0U;
     static constexpr std::size_t kConnectionModes = 0U;
+    static constexpr std::size_t kActionBudgets = 0U;
     static constexpr bool kHasTraceHash = false;
 };
 
@@ -70,6 +71,7 @@ struct JoinedTypes {
     static constexpr std::size_t kModes = (TypesOfPart<Parts>::kModes + ... + 0U);
     static constexpr std::size_t kModeTransitions = (TypesOfPart<Parts>::kModeTransitions + ... + 0U);
     static constexpr std::size_t kConnectionModes = (TypesOfPart<Parts>::kConnectionModes + ... + 0U);
+    static constexpr std::size_t kActionBudgets = (TypesOfPart<Parts>::kActionBudgets + ... + 0U);
     static constexpr bool kHasTraceHash = (TypesOfPart<Parts>::kHasTraceHash || ...);
 };
 

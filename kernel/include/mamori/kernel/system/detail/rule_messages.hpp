@@ -16,6 +16,7 @@
 #include "mamori/kernel/system/detail/component_constant.hpp"
 #include "mamori/kernel/system/detail/spelled_name.hpp"
 #include "mamori/kernel/system/detail/table_element.hpp"
+#include "mamori/kernel/table/action_budget.hpp"
 #include "mamori/kernel/table/modelled_time_row.hpp"
 #include "mamori/kernel/table/system_check.hpp"
 #include "mamori/kernel/table/system_finding.hpp"
@@ -148,9 +149,11 @@ constexpr bool keeps_rules() noexcept {
     // Members first: a port that is listed twice also causes inconsistent rows.
     constexpr Finding kOfMembers = find_faulty_member(typename TypesOf<kTable>::Components{});
     constexpr Finding kOfRows = kOfMembers.rule != Rule::kNone ? kOfMembers : check(make_view(kTable));
-    constexpr Finding kFinding = kOfRows.rule != Rule::kNone
+    constexpr Finding kOfTimes = kOfRows.rule != Rule::kNone
                                      ? kOfRows
                                      : check_modelled_times(kTable.modelled_times, kTable.components);
+    constexpr Finding kFinding =
+        kOfTimes.rule != Rule::kNone ? kOfTimes : check_action_budget(kTable.action_budgets);
     if constexpr (kFinding.rule != Rule::kNone) {
         return sizeof(typename MessageOf<kFinding.rule>::template Type<kTable, kFinding.element,
                                                                        kFinding.other>) == 0U;

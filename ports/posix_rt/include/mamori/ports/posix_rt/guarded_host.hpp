@@ -66,8 +66,9 @@ class WindowThread final {
     bool is_demoted_{false};
 };
 
-/// Calling context: the thread that runs the windows of the core; open() and close() before and after it
-/// does. Time: two switches of threads per piece of work. Memory: none of its own.
+/// Calling context: the thread that runs the windows of the core, and before and after it the thread that
+/// opens and closes the host and calls actions outside windows (ActionGuard). Time: two switches of threads
+/// per piece of work. Memory: none of its own.
 class GuardedHost final : public WindowHost {
   public:
     /// @param[in] threads one per window of the system table; must outlive the host, and for ever when work

@@ -8,7 +8,7 @@
 ///
 /// The same program runs in virtual time with mamori::ports::virtual_time::Machine.
 ///
-/// @satisfies SWR-PRT-070, SWR-PRT-071, SWR-PRT-072, SWR-PRT-073, SWR-PRT-074
+/// @satisfies SWR-PRT-070, SWR-PRT-071, SWR-PRT-072, SWR-PRT-073, SWR-PRT-074, SWR-PRT-085
 ///     Design: docs/design/posix_rt.md#machine
 #ifndef MAMORI_PORTS_POSIX_RT_MACHINE_HPP
 #define MAMORI_PORTS_POSIX_RT_MACHINE_HPP
@@ -22,6 +22,7 @@
 #include "mamori/kernel/run/devices.hpp"
 #include "mamori/kernel/run/executives.hpp"
 #include "mamori/kernel/system/system_rules.hpp"
+#include "mamori/kernel/table/action_budget.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/machine_options.hpp"
 #include "mamori/ports/posix_rt/machine_run.hpp"
@@ -62,19 +63,25 @@ class Machine<kTable, std::index_sequence<kCores...>> final {
     ///         range, or the calling thread has a fixed priority that the watches are not above);
     ///         kOutOfResources (no thread, or no space for the recorder file); kPreconditionNotMet (another
     ///         machine or other CrashHandlers are active in this process, or work of a window still hangs);
-    ///         kError (the schedule watch closed the outputs); or the failure of MappedFile::open(),
-    ///         FlightRecorder::open(), ExecutiveGroup::start() or stop().
+    ///         kError (the schedule watch closed the outputs, or an action exceeded the action_budget() of
+    ///         the table); or the failure of MappedFile::open(), FlightRecorder::open(),
+    ///         ExecutiveGroup::start() or stop().
     Status run(std::uint64_t frames, Devices& devices) noexcept {
         const SystemView view = make_view(kTable);
         DeviceCaller caller{view, kFirstCore, devices, clock_, run_};
         std::array<GridBeat, kCoreCount> beats{
             GridBeat{view, kCores, kCores == kFirstCore ? &caller : nullptr}...};
         std::array<RunnerThread, kCoreCount> threads{};
+        constexpr Duration kBudget = choose_action_budget(kTable.action_budgets);
+        std::array<MachineGuard, kCoreCount> guards{
+            MachineGuard{hosts_[kCores], kBudget, executives_.get(kCores), run_}...};
+        const std::array<ActionGuard*, kCoreCount> guard_pointers{&guards[kCores]...};
         for (std::size_t core = 0U; core < kCoreCount; ++core) {
             runners_[core].set_observer(&beats[core]);
         }
-        return run_.run({executives_, clock_, hosts_, runners_, beats, threads, caller, kFirstCore}, options_,
-                        frames);
+        return run_.run(
+            {executives_, clock_, hosts_, runners_, beats, threads, guard_pointers, caller, kFirstCore},
+            options_, frames);
     }
     /// Runs until SIGINT, SIGTERM or request_stop().
     Status run(Devices& devices) noexcept { return run(MachineRun::kAllFrames, devices); }

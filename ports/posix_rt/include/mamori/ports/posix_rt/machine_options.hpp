@@ -2,7 +2,7 @@
 /// @file
 /// What a machine in real time is told before a run, and what it reports after it.
 ///
-/// @satisfies SWR-PRT-070, SWR-PRT-073      Design: docs/design/posix_rt.md#machine
+/// @satisfies SWR-PRT-070, SWR-PRT-073, SWR-PRT-085      Design: docs/design/posix_rt.md#machine
 #ifndef MAMORI_PORTS_POSIX_RT_MACHINE_OPTIONS_HPP
 #define MAMORI_PORTS_POSIX_RT_MACHINE_OPTIONS_HPP
 
@@ -12,6 +12,7 @@
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/status.hpp"
 #include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/payload/bounded_string.hpp"
 #include "mamori/kernel/record/event_log.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
 #include "mamori/ports/posix_rt/grid_watch.hpp"
@@ -24,9 +25,9 @@ namespace mamori::ports::posix_rt {
 /// Settings of a machine. Each default suits a system of a few milliseconds per major frame on a shared host.
 struct MachineOptions {
     /// Disables the outputs permanently: at a signal, a crash, an expired watchdog, a finding of the schedule
-    /// watch, and at the end of each run. Called on any thread or in a signal handler; called again by
-    /// another thread while a call has not returned: system calls and stores only, nothing that waits.
-    /// Without a function, the system has no outputs.
+    /// watch, an action outside windows that exceeds its budget, and at the end of each run. Called on any
+    /// thread or in a signal handler; called again by another thread while a call has not returned: system
+    /// calls and stores only, nothing that waits. Without a function, the system has no outputs.
     OutputGate outputs{};
     /// SCHED_FIFO priority of the threads that run the windows, kPriorityMin .. kPriorityMax. The windows run
     /// kPriorityStep below, the schedule watch kPriorityStep above, and the watchdog above that.
@@ -47,7 +48,8 @@ struct MachineOptions {
     Duration watchdog_timeout{1'000'000'000};
     /// Device that supervises the watchdog: open, and disarmed by its owner after the run; nullptr: none. It
     /// is served from the first window on until the last one. Its timeout must exceed the start and the stop
-    /// of the system, with 1 s for work that hangs. Must outlive the machine.
+    /// of the system, with 1 s for work that hangs and the action_budget() of the table for each window whose
+    /// actions hang. Must outlive the machine.
     WatchdogDevice* device{nullptr};
     /// File of a flight recorder that receives start, stop, signals, findings and crashes of each run;
     /// nullptr: none. Created if it does not exist. Must outlive the machine.
@@ -69,12 +71,12 @@ enum class MachineStep : std::uint8_t {
     kSignals,        ///< another machine runs in this process
     kCrashHandlers,  ///< this process has CrashHandlers
     kWindowThreads,  ///< threads of the windows
-    kStart,          ///< on_initialize, on_startup or on_activated of a component, or the table
+    kStart,          ///< on_initialize, on_startup or on_activated of a component, its budget, or the table
     kWatch,          ///< thread of the schedule watch
     kWatchdog,       ///< thread of the watchdog
     kRunnerThreads,  ///< threads that run the windows
     kFrames,         ///< the major frames: the schedule watch closed the outputs
-    kStop            ///< on_deactivated or on_shutdown of a component, or work that hangs
+    kStop            ///< on_deactivated or on_shutdown of a component, its budget, or work that hangs
 };
 
 /// @return a sentence for the user; never nullptr.
@@ -84,8 +86,12 @@ const char* describe(MachineStep step) noexcept;
 struct MachineReport {
     MachineStep failed_step{MachineStep::kNone};         ///< first failure; kNone: run() returned kOk
     MappedFileError file_error{MappedFileError::kNone};  ///< of kRecorder
-    int signal{0};                                       ///< that ended the run; 0: none
-    Instant signalled{};                                 ///< its handler ran
+    /// Name of the first component with an action outside windows that exceeded the action_budget() of the
+    /// table, and of this action, as "on_startup"; nullptr: none.
+    const char* late_component{nullptr};
+    const char* late_action{nullptr};
+    int signal{0};               ///< that ended the run; 0: none
+    Instant signalled{};         ///< its handler ran
     Duration until_closed{0};    ///< from the handler of this signal to the closed outputs
     GridFinding finding{};       ///< of the schedule watch
     OpeningCounts openings{};    ///< of all runs and cores: sums, and the worst lateness
@@ -96,6 +102,10 @@ struct MachineReport {
     Right processor{};           ///< likewise
 };
 
+/// The sentence of the failed step, with component and action if the report names them.
+using MachineReportText = BoundedString<255U>;
+MachineReportText describe(const MachineReport& report) noexcept;
+
 /// Records that a machine writes to its recorder have this source; their codes are MachineEvent.
 inline constexpr std::uint16_t kMachineSource = 0xFFFFU;
 enum class MachineEvent : std::uint16_t {
@@ -104,6 +114,7 @@ enum class MachineEvent : std::uint16_t {
     kOutputsClosed = 3U,  ///< argument: time since the handler of the signal [ns], or 0
     kWatchFinding = 4U,   ///< argument: GridFault
     kStopped = 5U,        ///< argument: Status
+    kActionOverrun = 6U,  ///< argument: component, and 2^32 times its ComponentAction
 };
 
 }  // namespace mamori::ports::posix_rt

@@ -2,7 +2,7 @@
 /// @file
 /// Part of a machine in real time that does not depend on its table. Users construct a Machine.
 ///
-/// @satisfies SWR-PRT-070, SWR-PRT-071, SWR-PRT-072, SWR-PRT-073, SWR-PRT-074
+/// @satisfies SWR-PRT-070, SWR-PRT-071, SWR-PRT-072, SWR-PRT-073, SWR-PRT-074, SWR-PRT-085
 ///     Design: docs/design/posix_rt.md#machine
 #ifndef MAMORI_PORTS_POSIX_RT_MACHINE_RUN_HPP
 #define MAMORI_PORTS_POSIX_RT_MACHINE_RUN_HPP
@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "mamori/kernel/record/flight_recorder.hpp"
+#include "mamori/kernel/run/action_guard.hpp"
 #include "mamori/kernel/run/devices.hpp"
 #include "mamori/kernel/run/executives.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
@@ -55,6 +56,20 @@ class DeviceCaller final : public OpeningObserver {
     Duration longest_apply_{0};
 };
 
+/// Guard of the actions of one core: closes the outputs when an action exceeds its budget.
+class MachineGuard final : public ActionGuard {
+  public:
+    /// All references must outlive this object, and `host` the executive.
+    MachineGuard(GuardedHost& host, Duration budget, const Executive& executive, MachineRun& run) noexcept
+        : ActionGuard(host, budget), executive_(executive), run_(run) {}
+
+  private:
+    void on_action_overrun(std::size_t component, ComponentAction action) noexcept override;
+
+    const Executive& executive_;
+    MachineRun& run_;
+};
+
 /// Thread that runs the windows of one core.
 struct RunnerThread {
     CoreRunner* runner{nullptr};
@@ -74,6 +89,7 @@ struct MachineParts {
     Span<CoreRunner> runners;
     Span<GridBeat> beats;
     Span<RunnerThread> threads;
+    Span<ActionGuard* const> guards;
     const DeviceCaller& devices;
     std::size_t first_core;  ///< the core that calls the devices
 };
@@ -98,6 +114,9 @@ class MachineRun final : public StopListener {
     /// A major frame of the first core has ended: serves the watchdog if the schedule watch has polled since
     /// the last service, and ends the run after a finding of the watch. Called by DeviceCaller.
     void end_frame(Instant now) noexcept;
+    /// An action outside windows exceeded its budget: closes the outputs, then records it. Called by
+    /// MachineGuard.
+    void end_action(std::size_t component, const char* name, ComponentAction action) noexcept;
 
   private:
     Status fail(MachineStep step, Status status) noexcept;
@@ -107,7 +126,8 @@ class MachineRun final : public StopListener {
     Status run_watched(const MachineParts& parts, const MachineOptions& options,
                        std::uint64_t frames) noexcept;
     Status run_threads(const MachineParts& parts, const MachineOptions& options) noexcept;
-    Status stop(const MachineParts& parts) noexcept;
+    Status start(const MachineParts& parts, int priority) noexcept;
+    Status stop(const MachineParts& parts, int priority) noexcept;
     void collect(const MachineParts& parts) noexcept;
     void record(Instant time, MachineEvent event, Severity severity, std::int64_t argument) noexcept;
     void note_signal() noexcept;

@@ -7,7 +7,7 @@
 ///
 /// The same program runs in real time with mamori::ports::posix_rt::Machine.
 ///
-/// @satisfies SWR-VTM-006      Design: docs/design/kernel.md#machine
+/// @satisfies SWR-VTM-006, SWR-VTM-015      Design: docs/design/kernel.md#machine
 #ifndef MAMORI_PORTS_VIRTUAL_TIME_MACHINE_HPP
 #define MAMORI_PORTS_VIRTUAL_TIME_MACHINE_HPP
 
@@ -19,13 +19,39 @@
 #include <type_traits>
 #include <utility>
 
+#include "mamori/kernel/run/action_guard.hpp"
 #include "mamori/kernel/run/devices.hpp"
 #include "mamori/kernel/run/executives.hpp"
 #include "mamori/kernel/system/system_rules.hpp"
+#include "mamori/kernel/table/action_budget.hpp"
+#include "mamori/kernel/table/table_index.hpp"
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 #include "mamori/ports/virtual_time/virtual_host.hpp"
 
 namespace mamori::ports::virtual_time {
+
+/// First action outside windows that exceeded its budget.
+struct ActionOverrun {
+    std::size_t component{kNoIndex};  ///< index in the system table; kNoIndex: none
+    ComponentAction action{ComponentAction::kInitialize};
+};
+
+/// Guard of one core that keeps the first overrun of all cores.
+class MachineGuard final : public ActionGuard {
+  public:
+    /// @param[in] overrun of all guards of the machine; both references must outlive this object.
+    constexpr MachineGuard(VirtualHost& host, Duration budget, ActionOverrun& overrun) noexcept
+        : ActionGuard(host, budget), overrun_(overrun) {}
+
+  private:
+    void on_action_overrun(std::size_t component, ComponentAction action) noexcept override {
+        if (overrun_.component == kNoIndex) {
+            overrun_ = {component, action};
+        }
+    }
+
+    ActionOverrun& overrun_;
+};
 
 /// Part of a machine that does not depend on its table. Users construct a Machine.
 ///
@@ -42,6 +68,8 @@ class MachineBase {
 
     /// Number of the next major frame: frames of all runs so far.
     std::uint64_t get_frame_count() const noexcept { return frame_count_; }
+    /// Of the last run: the action that exceeded the action_budget() of the table.
+    const ActionOverrun& get_action_overrun() const noexcept { return overrun_; }
     /// Windows of all runs that ended with WindowOutcome::kOverrun.
     std::uint64_t get_overrun_count() const noexcept { return overrun_count_; }
 
@@ -51,10 +79,12 @@ class MachineBase {
     constexpr MachineBase() noexcept = default;
     ~MachineBase() = default;
 
-    Status run(ExecutiveGroup& executives, Span<SimulatedCore> cores, std::uint64_t frames,
-               Devices& devices) noexcept;
+    Status run(ExecutiveGroup& executives, Span<SimulatedCore> cores, Span<ActionGuard* const> guards,
+               std::uint64_t frames, Devices& devices) noexcept;
+    ActionOverrun& get_overrun() noexcept { return overrun_; }
 
   private:
+    ActionOverrun overrun_{};
     std::uint64_t frame_count_{0U};
     std::uint64_t overrun_count_{0U};
     std::atomic<bool> is_stop_wanted_{false};
@@ -84,11 +114,15 @@ class Machine<kTable, std::index_sequence<kCores...>> final : public MachineBase
     /// Starts the system, runs `frames` major frames, and stops the system. A later call continues with the
     /// next frame. @param[in] frames any; each run ends with the time line after 292 years.
     /// @return kOk; else the first failure of ExecutiveGroup::start(), with which no frame runs, or of
-    ///         ExecutiveGroup::stop().
+    ///         ExecutiveGroup::stop(); kError as well when an action outside windows exceeds its budget.
     Status run(std::uint64_t frames, Devices& devices) noexcept {
         std::array<SimulatedCore, sizeof...(kCores)> cores{
             SimulatedCore{executives_.get(kCores), get_host_of<kCores>()}...};
-        return MachineBase::run(executives_, cores, frames, devices);
+        constexpr Duration kBudget = choose_action_budget(kTable.action_budgets);
+        std::array<MachineGuard, sizeof...(kCores)> guards{
+            MachineGuard{get_host_of<kCores>(), kBudget, get_overrun()}...};
+        const std::array<ActionGuard*, sizeof...(kCores)> pointers{&guards[kCores]...};
+        return MachineBase::run(executives_, cores, pointers, frames, devices);
     }
     /// Runs until request_stop().
     Status run(Devices& devices) noexcept { return run(kAllFrames, devices); }

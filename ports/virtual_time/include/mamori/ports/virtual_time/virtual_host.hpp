@@ -42,6 +42,8 @@ class VirtualHost : public WindowHost {
     /// Work whose modelled time fits runs and the clock moves on by it. Work that does not fit is cut off at
     /// the deadline: a late one still has its effect on its component, a hanging one has none.
     /// The modelled time is that of the first pass, and of a mode step in its place; the second takes none.
+    /// An action outside windows has the modelled time as well, but the clock does not move: the time line
+    /// consists of major frames.
     std::size_t run_within(const Work& work, Instant deadline) noexcept final;
     /// Always: work that is cut off has returned, or never began.
     bool has_returned(std::size_t) const noexcept final { return true; }
