@@ -106,6 +106,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 COMMAND = Command(
     add_arguments, run, "write the message types of a program as .lcm files; replay a log of an LCM network",
     "Runs PROGRAM, which prints the LCM types that ports/lcm makes of its field lists, and writes each struct to a file of its own. lcm-gen and the "
-    "tools of LCM read these files.\n\nA replay runs PROGRAM [ARGUMENTS] --replay LOG in virtual time and prints its counters and hashes.",
+    "tools of LCM read these files.\n\nA replay runs the replay mode of PROGRAM in virtual time and prints its counters and hashes.",
     {1: "the log is damaged, or two replays differ"},
     examples=("lcm types build/my_types --out types", "lcm replay run.lcmlog build/my_replay"))  # fmt: skip

@@ -120,6 +120,6 @@ COMMAND = Command(
     add_arguments, run, "print the file of a flight recorder or an LCM log; export it for viewers",
     "Prints the events in FILE, which a flight recorder wrote. This also works while the recorder writes and after a crash. Missing, torn and "
     "corrupt parts are reported with their offset in the file. Of a log of lcm-logger, the channels are printed; --mcap decodes its messages with the "
-    "types of --types.",
+    "types in DIR.",
     {0: "all events were read", 1: "printed, but something is damaged or missing", 2: "nothing to print, or wrong arguments"},
     examples=("log run.rec --mcap run.mcap", "log run.lcmlog --types types --mcap run.mcap"))  # fmt: skip
