@@ -215,7 +215,7 @@ def test_recorder_file_is_never_its_own_export(recorder: Path, option: str, caps
 
     for out in (recorder, link):
         assert log(recorder, option, out) == 2
-        assert "would replace the recorder file" in capsys.readouterr().err
+        assert "would replace the input file" in capsys.readouterr().err
     assert recorder.read_bytes() == before
 
 

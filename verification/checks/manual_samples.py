@@ -30,6 +30,7 @@ COMPILED = (
     "safety/tests/supervision/manual_page_test.cpp",
     "tools/probe/table_dump/tests/robot_with_modes.hpp",
     "verification/e2e/tests/protected_speed.hpp",
+    "verification/integration/src/lcm_replay_system.cpp",
     INTEGRATION,
 )
 """Sources with samples. The build compiles each of them."""

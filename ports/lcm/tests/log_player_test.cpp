@@ -17,6 +17,7 @@
 #include "mamori/kernel/payload/trace_hash.hpp"
 #include "mamori/ports/lcm/link_components.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/log_writer.hpp"
 #include "support/random_value.hpp"
 #include "support/sample_types.hpp"
 
@@ -28,27 +29,12 @@ using Message = lcm_sample::CloudMessage;
 using Queue = MessageQueue<Message, 8U>;
 using namespace verification;
 
-constexpr std::int64_t kBeginUs = 1'700'000'000'000'000;  // UTC, as lcm-logger writes it
-
 class LogPlayerTest : public ::testing::Test {
   protected:
     void TearDown() override { static_cast<void>(std::remove(path_.c_str())); }
 
-    void add_number(std::uint64_t number, int octets) {
-        for (int i = octets - 1; i >= 0; --i) {
-            log_.push_back(static_cast<char>(number >> (8 * i)));
-        }
-    }
     void add_event(std::int64_t time_us, const std::string& channel, const std::vector<std::byte>& message) {
-        add_number(0xEDA1DA01U, 4);
-        add_number(event_number_++, 8);
-        add_number(static_cast<std::uint64_t>(kBeginUs + time_us), 8);
-        add_number(channel.size(), 4);
-        add_number(message.size(), 4);
-        log_ += channel;
-        for (const std::byte octet : message) {
-            log_.push_back(std::to_integer<char>(octet));
-        }
+        writer_.add_event(time_us, channel, message);
     }
     Status open() {
         std::ofstream(path_, std::ios::binary) << log_;
@@ -63,8 +49,8 @@ class LogPlayerTest : public ::testing::Test {
     }
 
     std::string path_{::testing::TempDir() + "mamori_log_player_" + std::to_string(::getpid())};
-    std::string log_{};
-    std::uint64_t event_number_{0U};
+    lcm_sample::LogWriter writer_{};
+    std::string& log_{writer_.log};
     safety::E2eProtector<Message::Profile> protector_{Message::kChannel};
     Queue queue_;
     LogPlayer player_;
@@ -131,7 +117,7 @@ TEST_F(LogPlayerTest, ALoggedRunReplaysToTheSameOutputs) {
         replay.execute(Instant{cycle * kCycleUs * 1000});
     }
     EXPECT_EQ(status, Status::kPreconditionNotMet);
-    EXPECT_EQ(player_.get_event_count(), event_number_);
+    EXPECT_EQ(player_.get_event_count(), writer_.event_count);
     EXPECT_GT(original.get_values(), kCycles / 2);
     EXPECT_EQ(replay.get_values(), original.get_values());
     EXPECT_EQ(replay.get_hash(), original.get_hash());

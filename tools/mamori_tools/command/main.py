@@ -83,8 +83,8 @@ def _dispatch(arguments: argparse.Namespace) -> int:
 
 
 def _split(argv: list[str]) -> tuple[list[str], tuple[str, ...]]:
-    """@return the arguments of the command, and those after the first `--`, which `timing` forwards to its program."""
-    if argv[:1] != ["timing"] or "--" not in argv:
+    """@return the arguments of the command, and those after the first `--`, which `timing` and `lcm` forward to their program."""
+    if not argv or argv[0] not in ("timing", "lcm") or "--" not in argv:
         return argv, ()
     place = argv.index("--")
     return argv[:place], tuple(argv[place + 1 :])

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """`./mamori lcm types PROGRAM --out DIR`: writes the `.lcm` files of the message types that a program prints.
+`./mamori lcm replay LOG PROGRAM`: replays a log of lcm-logger.
 
-@satisfies SWR-LCM-013      Design: docs/design/lcm.md#types
+@satisfies SWR-LCM-013, SWR-LCM-016      Design: docs/design/lcm.md#types
 """
 
 from __future__ import annotations
@@ -14,9 +15,11 @@ from pathlib import Path
 
 from mamori_tools.host.arguments import Command
 from mamori_tools.host.exit_status import EXIT_OK
+from mamori_tools.lcm.replay import replay
 from mamori_trace.base.errors import InputError
 from mamori_trace.base.text_file import write_text
 
+TYPES, REPLAY = "types", "replay"
 HEAD = "// Made by Mamori from the field list of "
 NAME = r"[A-Za-z_][A-Za-z0-9_]*"
 STRUCT = re.compile(rf"{re.escape(HEAD)}[^\n]*\npackage (?P<package>{NAME}(?:\.{NAME})*);\n\nstruct (?P<name>{NAME}) {{\n(?:    [^\n]*\n)+}}\n")
@@ -25,11 +28,25 @@ HINT = "its main function must return mamori::ports::lcm::print_lcm_types<...>()
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """@raise InputError in one line if PROGRAM does not print types; then nothing is written."""
-    files = split_types(arguments.program, _run_program(arguments.program))
-    _make_folder(arguments.out)
+    """@raise InputError in one line for wrong arguments or a program without the mode."""
+    wanted = {TYPES: 1, REPLAY: 2}[arguments.action]
+    if len(arguments.paths) != wanted:
+        raise InputError(f"lcm {arguments.action}: {len(arguments.paths)} paths instead of {wanted}; see ./mamori lcm --help")
+    if arguments.action == REPLAY:
+        if arguments.out is not None:
+            raise InputError("lcm replay: --out is for types; omit it")
+        return replay(arguments.paths[0], arguments.paths[1], arguments.passed_on)
+    if arguments.out is None or arguments.passed_on:
+        raise InputError("lcm types: needs --out DIR and no arguments after the program; see ./mamori lcm --help")
+    return _write_types(arguments.paths[0], arguments.out)
+
+
+def _write_types(program: Path, folder: Path) -> int:
+    """@raise InputError if the program does not print types; then nothing is written."""
+    files = split_types(program, _run_program(program))
+    _make_folder(folder)
     for name, text in files.items():
-        path = arguments.out / name
+        path = folder / name
         write_text(path, text)
         print(f"mamori: wrote {path}", file=sys.stderr)
     return EXIT_OK
@@ -78,13 +95,17 @@ def _make_folder(folder: Path) -> None:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("action", choices=["types"], metavar="types", help="write the .lcm files of message types")
-    parser.add_argument("program", type=Path, metavar="PROGRAM", help="program that prints its types with print_lcm_types()")
-    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for one file per struct, PACKAGE.STRUCT.lcm")
+    parser.usage = f"%(prog)s {TYPES} PROGRAM --out DIR\n       %(prog)s {REPLAY} LOG PROGRAM [-- ARGUMENTS]"
+    parser.add_argument("action", choices=[TYPES, REPLAY], metavar=f"{TYPES}, {REPLAY}",
+                        help="write the .lcm files of message types; or run a program with a log of lcm-logger, twice, and compare")  # fmt: skip
+    parser.add_argument("paths", type=Path, nargs="+", metavar="PATH",
+                        help=f"{TYPES}: program that returns print_lcm_types(); {REPLAY}: log, and program that returns replay_main()")  # fmt: skip
+    parser.add_argument("--out", type=Path, metavar="DIR", help="folder for one file per struct, PACKAGE.STRUCT.lcm")
 
 
 COMMAND = Command(
-    add_arguments, run, "write the message types of a program as .lcm files for lcm-gen",
+    add_arguments, run, "write the message types of a program as .lcm files; replay a log of an LCM network",
     "Runs PROGRAM, which prints the LCM types that ports/lcm makes of its field lists, and writes each struct to a file of its own. lcm-gen and the "
-    "tools of LCM read these files.",
-    examples=("lcm types build/my_types --out types",))  # fmt: skip
+    "tools of LCM read these files.\n\nA replay runs the replay mode of PROGRAM in virtual time and prints its counters and hashes.",
+    {1: "the log is damaged, or two replays differ"},
+    examples=("lcm types build/my_types --out types", "lcm replay run.lcmlog build/my_replay"))  # fmt: skip

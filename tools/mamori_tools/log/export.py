@@ -15,7 +15,6 @@ from contextlib import contextmanager
 from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
-from typing import BinaryIO
 
 from mcap.writer import Writer
 
@@ -61,9 +60,7 @@ SCHEMA = {
 
 def write_mcap(path: Path, recording: Recording, names: Names) -> None:
     """Raises InputError if `path` cannot be written."""
-    with _replace(path) as stream:
-        writer = Writer(stream)
-        writer.start(library=f"mamori {version('mamori')}")
+    with open_mcap(path) as writer:
         schema = writer.register_schema(SCHEMA_NAME, "jsonschema", json.dumps(SCHEMA).encode())
         channels: dict[int, int] = {}
         for record in recording.records:
@@ -76,7 +73,6 @@ def write_mcap(path: Path, recording: Recording, names: Names) -> None:
                  "overwritten": recording.overwritten, "findings": [_make_finding(finding) for finding in recording.findings],
                  "crash": _make_crash(recording)}
         writer.add_metadata(METADATA, {key: value if isinstance(value, str) else json.dumps(value) for key, value in facts.items()})
-        writer.finish()
 
 
 def write_csv(path: Path, recording: Recording, names: Names) -> None:
@@ -123,10 +119,13 @@ def _make_crash(recording: Recording) -> dict[str, object] | None:
 
 
 @contextmanager
-def _replace(path: Path) -> Iterator[BinaryIO]:
+def open_mcap(path: Path) -> Iterator[Writer]:
     """A temporary file that replaces `path` if the block ends without an exception; otherwise it is removed."""
     try:
         with whole_file(path) as part, part.open("wb") as stream:
-            yield stream
+            writer = Writer(stream)
+            writer.start(library=f"mamori {version('mamori')}")
+            yield writer
+            writer.finish()
     except OSError as error:
         raise refuse_output(path, error) from error

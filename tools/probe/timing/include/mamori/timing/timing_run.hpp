@@ -84,7 +84,7 @@ int get_exit_status(TimingOutcome outcome) noexcept;
 ///
 /// Calling context: the main thread of a program, once per process. Work that hangs permanently keeps its
 /// memory. Memory: heap, locked if the process has the privilege; about 80 bytes per window instance and 60
-/// per step, and 9 MB per core.
+/// per step, and 20 MB per core.
 /// @param[in] cores one per core of the table, in the same order.
 TimingResult run_timing(const std::vector<TimedCore>& cores, const TimingOptions& options);
 
