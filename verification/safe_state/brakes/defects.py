@@ -85,6 +85,13 @@ def notice_nothing_late(brakes: Brakes) -> Brakes:
     return replace(brakes, cycle={**brakes.cycle, "overdue": overdue})
 
 
+def trust_stuck_contacts(brakes: Brakes) -> Brakes:
+    confirmed = brakes.confirmed.copy()
+    numbers = sorted({number for number, memory in brakes.roads if brakes.fitted[number] and not memory.closed})
+    confirmed[np.ix_(numbers, [brakes.states.index(SS1)], [1], [1])] = 1
+    return replace(brakes, confirmed=confirmed)
+
+
 BRAKE_DEFECTS: tuple[Defect[Brakes], ...] = (
     Defect("brakes-closed-without-torque", "A moving machine that is locked out keeps its brakes open.",
                 bend(Where((OPEN,), LOCKED_OUT), {"open": 1, "told_now": 0, "overdue": 0}, OPEN)),
@@ -94,6 +101,8 @@ BRAKE_DEFECTS: tuple[Defect[Brakes], ...] = (
                 bend(Where((TOLD,), SS1), {"torque": 0})),
     Defect("ss1-confirmed-by-its-brakes", "Standstill alone confirms an SS1, whatever the contacts say.",
                 confirm(1, (True,), standing=(1,), contacts=(0,))),
+    Defect("contacts-confirm-after-the-command-only", "A contact stuck at closed confirms an SS1 in the cycle of the command.",
+                trust_stuck_contacts),
     Defect("torque-outlives-the-hold-only", "A standby gets torque also after a self test.",
                 bend(Where((TOLD,), "Standby", before="SelfTest", times=(WITHIN,)), {"torque": 1}, HANDING_OVER)),
     Defect("torque-outlives-the-hold-within-the-closing-time", "Torque outlives the hold up to and including the closing time.",

@@ -4,7 +4,7 @@
 /// when its frame, its content, its age and the state of the channel allow it; else a substitute does.
 ///
 /// @satisfies SWR-E2E-031, SWR-E2E-032, SWR-E2E-033, SWR-E2E-034, SWR-E2E-035
-/// @satisfies SWR-E2E-037, SWR-E2E-039, SWR-E2E-041
+/// @satisfies SWR-E2E-037, SWR-E2E-039, SWR-E2E-041, SWR-E2E-042
 /// Design:   docs/design/e2e.md#ports
 #ifndef MAMORI_SAFETY_E2E_IN_PORT_HPP
 #define MAMORI_SAFETY_E2E_IN_PORT_HPP
@@ -90,8 +90,9 @@ class E2eInPort final {
             restart_count_ = source_.get_restart_count();
             source_.forget();
             has_value_ = false;  // whatever this reading brings: what is held is of another mode or run
+            waiting_ = CheckStatus::kNoNewData;
         }
-        outcome_ = has_frame() ? judge_frame(now) : note_silence();
+        outcome_ = has_frame() ? judge_frame(now) : note_silence(now);
         if (!machine_.is_valid()) {
             has_value_ = false;
         }
@@ -119,6 +120,7 @@ class E2eInPort final {
     void restart() noexcept {
         checker_.restart();
         machine_.restart();  // and the next reading drops the value
+        waiting_ = CheckStatus::kNoNewData;
     }
 
     /// What became of the last reading; kSilent before the first.
@@ -132,7 +134,10 @@ class E2eInPort final {
     ChannelState get_state() const noexcept { return machine_.get_state(); }
 
   private:
-    E2eOutcome note_silence() noexcept {
+    E2eOutcome note_silence(Instant now) noexcept {
+        if (waiting_ != CheckStatus::kNoNewData) {
+            return open(detail::view_bytes(source_.get_taken()), waiting_, true, now);
+        }
         note(checker_.check_silence());
         return E2eOutcome::kSilent;
     }
@@ -140,24 +145,35 @@ class E2eInPort final {
         const Span<const std::byte> frame = detail::view_bytes(source_.take());
         const CheckStatus status = checker_.check(frame);
         if (!is_usable(status)) {
+            waiting_ = CheckStatus::kNoNewData;
             note(status);
             return E2eOutcome::kRefused;
         }
-        const E2eOutcome outcome = open(frame, now);
+        return open(frame, status, waiting_ != CheckStatus::kNoNewData, now);
+    }
+    /// Takes the value out of a message that the check accepted. What was held before is older, and is
+    /// dropped with a message that is not for use. A reader that is released late may find a message that was
+    /// sent after the planned start of its window: it waits for the next reading, unless one waited before.
+    /// @return kAccepted, kMalformed, kEarly or kLate.
+    E2eOutcome open(Span<const std::byte> frame, CheckStatus status, bool has_waited, Instant now) noexcept {
+        const Span<const std::byte> payload =
+            frame.subspan(Message::kPayloadAt, frame.size() - Message::kPayloadAt);
+        const Instant origin =
+            detail::read_origin<Value>(payload, Message::kByteOrder, source_.get_published_at());
+        E2eOutcome outcome = judge_age(origin, now, kLimits.age_max, kLimits.lead_max);
+        waiting_ = CheckStatus::kNoNewData;
+        if (outcome == E2eOutcome::kEarly && !has_waited) {
+            waiting_ = status;
+            note(CheckStatus::kNoNewData);
+            return outcome;
+        }
+        if (decode(payload, Message::kByteOrder, value_) != Status::kOk) {
+            outcome = E2eOutcome::kMalformed;
+        }
+        origin_ = origin;
         has_value_ = outcome == E2eOutcome::kAccepted;
         note(has_value_ ? status : CheckStatus::kError);
         return outcome;
-    }
-    /// Takes the value out of a frame that was found good. What was held before is older, and goes with a
-    /// frame that is not for use. @return kAccepted, kMalformed, kEarly or kLate.
-    E2eOutcome open(Span<const std::byte> frame, Instant now) noexcept {
-        const Span<const std::byte> payload =
-            frame.subspan(Message::kPayloadAt, frame.size() - Message::kPayloadAt);
-        if (decode(payload, Message::kByteOrder, value_) != Status::kOk) {
-            return E2eOutcome::kMalformed;
-        }
-        origin_ = detail::get_origin(value_, source_.get_published_at());
-        return judge_age(origin_, now, kLimits.age_max, kLimits.lead_max);
     }
     void note(CheckStatus status) noexcept {
         static_cast<void>(machine_.check(to_profile_status(status, kLimits.rule)));  // its demands are sound
@@ -173,6 +189,7 @@ class E2eInPort final {
     std::uint32_t restart_count_{0U};  ///< of the input, as the last reading found it
     E2eOutcomeCounts counts_{};
     E2eOutcome outcome_{E2eOutcome::kSilent};
+    CheckStatus waiting_{CheckStatus::kNoNewData};  ///< of the message that waits; kNoNewData: none waits
     bool has_value_{false};
 };
 
