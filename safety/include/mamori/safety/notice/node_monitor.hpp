@@ -2,7 +2,7 @@
 /// @file
 /// Component that supervises another node by its survival notices, which come over any transport.
 ///
-/// @satisfies SWR-NTC-004, SWR-NTC-005, SWR-NTC-006, SWR-NTC-008, SWR-NTC-009, SWR-NTC-010
+/// @satisfies SWR-NTC-004, SWR-NTC-005, SWR-NTC-007, SWR-NTC-008, SWR-NTC-009, SWR-NTC-011
 /// Design:   docs/design/supervision.md#survival-notice
 #ifndef MAMORI_SAFETY_NOTICE_NODE_MONITOR_HPP
 #define MAMORI_SAFETY_NOTICE_NODE_MONITOR_HPP

@@ -2,7 +2,7 @@
 /// @file
 /// Supervision of another node by its survival notices: faults latch and name their cause.
 ///
-/// @satisfies SWR-NTC-004, SWR-NTC-005, SWR-NTC-006, SWR-NTC-007, SWR-NTC-008, SWR-NTC-009
+/// @satisfies SWR-NTC-003, SWR-NTC-004, SWR-NTC-006, SWR-NTC-009, SWR-NTC-010
 /// Design:   docs/design/supervision.md#survival-notice
 #ifndef MAMORI_SAFETY_NOTICE_NODE_SUPERVISOR_HPP
 #define MAMORI_SAFETY_NOTICE_NODE_SUPERVISOR_HPP

@@ -5,7 +5,7 @@
 ///
 ///     constexpr mamori::safety::NoticeNode kArm{0xA4A1U, 1_ms, 10U, std::array{"reader", "guard", "notifier"}};
 ///
-/// @satisfies SWR-NTC-001, SWR-NTC-003      Design: docs/design/supervision.md#survival-notice
+/// @satisfies SWR-NTC-001, SWR-NTC-003, SWR-NTC-007      Design: docs/design/supervision.md#survival-notice
 #ifndef MAMORI_SAFETY_NOTICE_NOTICE_HPP
 #define MAMORI_SAFETY_NOTICE_NOTICE_HPP
 
