@@ -101,9 +101,8 @@ Node advance(const Node& from, SafeStateInputs inputs, bool are_closed, std::vec
     to.has_run = before == after && (from.has_run || is_running);
     to.closing = from.outputs.brake_release ? 0 : std::min(from.closing + 1, kOldest);
     to.held = before == SafeState::kStandstillHold ? 0 : std::min(from.held + 1, kOldest);
-    steps.push_back(
-        {before, after, inputs.demand, is_standing, are_closed, to.has_opened, to.outputs, elapsed, to.closing,
-         to.held});
+    steps.push_back({before, after, inputs.demand, is_standing, are_closed, to.has_opened, to.outputs,
+                     elapsed, to.closing, to.held});
     to.closing = to.outputs.brake_release ? 0 : to.closing;
     return to;
 }
@@ -221,8 +220,7 @@ TEST(BrakeSequencePropertyTest, Ss1EndsByItsBrakesItsBoundOrSomethingWorse) {
 
     expect_always([](const Step& step, bool has_contacts) {
         const bool has_ended = step.before == SafeState::kProtectiveStopSs1 && step.after != step.before;
-        const bool have_bitten =
-            has_contacts ? have_contacts_engaged(step) : step.closing >= kCloses.ns;
+        const bool have_bitten = has_contacts ? have_contacts_engaged(step) : step.closing >= kCloses.ns;
         const bool is_worse = step.demand == Reaction::kSto || step.elapsed >= kBounds.ss1_within;
         return !has_ended || is_worse || (step.is_standing && have_bitten);
     });

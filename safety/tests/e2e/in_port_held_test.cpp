@@ -236,7 +236,7 @@ TEST(E2eLateReaderTest, SecondEarlyMessageInARowIsAnErrorAndEndsTheHeldValue) {
     ASSERT_EQ(ends.send({(ends.now + 11_ms).ns, {2.0, Gear::kDrive}}), E2eWorth::kHeld);
     EXPECT_EQ(ends.send({(ends.now + 11_ms).ns, {3.0, Gear::kDrive}}), E2eWorth::kSubstitute);
     EXPECT_EQ(ends.sut.get_outcome(), E2eOutcome::kEarly);
-    EXPECT_EQ(ends.read(), E2eWorth::kSubstitute) << "the rejected message does not come back";
+    EXPECT_EQ(ends.read(), E2eWorth::kSubstitute) << "the rejected message stays rejected";
 }
 
 TEST(E2eLateReaderTest, LaterMessageReplacesTheOneThatWaits) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the monitor uses intact notices of its node only, and names what is wrong with the others. Method: the
-// sending end by hand, one change to the message or its order at a time.
+// Goal: the monitor uses intact notices of its node only, and names what is wrong with the others. Method:
+// the sending end by hand, one change to the message or its order at a time.
 #include "mamori/safety/notice/node_monitor.hpp"
 
 #include <array>
@@ -189,6 +189,28 @@ TEST_F(NodeMonitorTest, ChannelThatRepeatsOneNoticeFromTheStartIsSilent) {
     receive(stuck);
 
     EXPECT_TRUE(has_only(NoticeFault::kSilent));
+}
+
+TEST_F(NodeMonitorTest, NoticesOfTheNodeAreNoFaultAmongThoseOfOtherNodesElsewhere) {
+    verifies("SWR-NTC-008");
+    Sender<kBase> base;  // sends to another monitor
+    for (int i = 0; i < 5; ++i) {
+        static_cast<void>(base.make());
+        receive(arm_.make());
+    }
+
+    EXPECT_FALSE(has(NoticeFault::kWrongNode));
+    EXPECT_TRUE(sut_.get_status().is_proven);
+}
+
+TEST_F(NodeMonitorTest, NoticeOfTheSameTableGivesItsReports) {
+    verifies("SWR-NTC-007");
+    prove();
+    arm_.value.components[0] = to_byte({LifecycleState::kInactive, LocalStatus::kOk});
+    receive(arm_.make());
+
+    EXPECT_FALSE(has(NoticeFault::kOtherTable));
+    EXPECT_EQ(sut_.get_report(0U).state, LifecycleState::kInactive);
 }
 
 TEST_F(NodeMonitorTest, NoticeOfAnotherNodeIsNamedAndNotUsed) {

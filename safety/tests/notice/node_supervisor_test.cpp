@@ -214,13 +214,15 @@ TEST(NoticeLimitsTest, LimitsOutsideTheirRangeAreInvalid) {
     EXPECT_FALSE(is_valid({Duration{0}, 1U, 2U, 8U}, Duration{kLongest / 8 + 1}));
     EXPECT_FALSE(is_valid({Duration{0}, 1U, 16U, 8U}, Duration{kLongest / 8}));
     EXPECT_TRUE(is_valid({Duration{0}, 1U, 8U, 8U}, Duration{kLongest / 8}));
-    EXPECT_CHECK_FAILS((NodeSupervisor{kPeriod, NoticeLimits{Duration{0}, 2U, 2U}}), "node_supervisor.hpp", 1);
+    EXPECT_CHECK_FAILS((NodeSupervisor{kPeriod, NoticeLimits{Duration{0}, 2U, 2U}}), "node_supervisor.hpp",
+                       1);
 }
 
 TEST(NoticeFaultTest, EachFaultHasANameAndABitOfItsOwn) {
     verifies("SWR-NTC-006", Technique::kInterface);
-    constexpr std::array kNames{"None",       "Silent",           "Late",           "OutOfOrder",     "WrongNode",
-                                "OtherTable", "ComponentMissing", "ComponentError", "ComponentExpired"};
+    constexpr std::array kNames{
+        "None",       "Silent",           "Late",           "OutOfOrder",      "WrongNode",
+        "OtherTable", "ComponentMissing", "ComponentError", "ComponentExpired"};
     static_assert(kNames.size() == kNoticeFaultMax + 1U);
 
     for (std::uint32_t number = 0U; number < kNames.size(); ++number) {

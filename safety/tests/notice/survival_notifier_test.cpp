@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the notice contains the state and health of each component of the table, in every n-th major frame, and
-// a description that differs from the table does not start. Method: a system with a host that only counts time.
+// Goal: the notice contains the state and health of each component of the table, in every n-th major frame,
+// and a description that differs from the table does not start. Method: a system with a host that only counts
+// time.
 #include "mamori/safety/notice/survival_notifier.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,8 @@ using namespace verification;
 using literals::operator""_us;
 using literals::operator""_ms;
 
-constexpr NoticeNode kNode{77U, 1_ms, 3U, std::array<const char*, 4U>{"reader", "idle", "supervisor", "notifier"}};
+constexpr NoticeNode kNode{77U, 1_ms, 3U,
+                           std::array<const char*, 4U>{"reader", "idle", "supervisor", "notifier"}};
 constexpr NoticeNode kShort{77U, 1_ms, 3U, std::array<const char*, 3U>{"reader", "idle", "supervisor"}};
 constexpr NoticeNode kRenamed{77U, 1_ms, 3U,
                               std::array<const char*, 4U>{"reader", "idle", "supervisor", "notifer"}};
@@ -97,8 +99,9 @@ class SurvivalNotifierTest : public ::testing::Test {
         const CheckStatus status = checker_.check(detail::view_bytes(frame));
         EXPECT_NE(status, CheckStatus::kError);
         Notice::Value value;
-        EXPECT_EQ(decode(detail::view_bytes(frame).subspan(20U, frame.size() - 20U), ByteOrder::kLittle, value),
-                  Status::kOk);
+        EXPECT_EQ(
+            decode(detail::view_bytes(frame).subspan(20U, frame.size() - 20U), ByteOrder::kLittle, value),
+            Status::kOk);
         return value;
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the violation that was latched first stays, whatever deadlines follow it in a chain, where a
+// Goal: the violation that was latched first stays while other deadlines follow it in a chain, where a
 // checkpoint ends one deadline and starts the next. Method: directed sequences, and seeded random sequences
 // against an oracle that is written from the rules alone.
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// notice_run FRAMES INJECTIONS SEED: the run of two_nodes.hpp at length. Ends with 1 if an injection was missed
-// or a fault invented, with 2 for wrong arguments.
+// notice_run FRAMES INJECTIONS SEED: the run of two_nodes.hpp at length. Ends with 1 if an injection was
+// missed or a fault invented, with 2 for wrong arguments.
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
@@ -24,8 +24,8 @@ int main(int argc, char** argv) {
         std::printf("injection %zu: %" PRIu32 ", reported after at most %" PRId64 " us\n", i,
                     outcome.injected[i], outcome.delay_max_ns[i] / 1000);
     }
-    std::printf("frames %" PRIu64 ", messages %" PRIu64 ", lost %" PRIu64 ", injected %" PRIu32 ", missed %" PRIu32
-                ", invented %" PRIu32 ", seed %" PRIu32 "\n",
+    std::printf("frames %" PRIu64 ", messages %" PRIu64 ", lost %" PRIu64 ", injected %" PRIu32
+                ", missed %" PRIu32 ", invented %" PRIu32 ", seed %" PRIu32 "\n",
                 outcome.frames, outcome.sent, outcome.lost, injected, outcome.missed, outcome.invented, seed);
     return outcome.missed == 0U && outcome.invented == 0U ? 0 : 1;
 }

@@ -33,9 +33,7 @@ using Notice = NoticeFor<kArm>;
 class Worker final : public Component {
   public:
     constexpr explicit Worker(const char* name) noexcept : Component(name) {}
-    Status on_execute(ContextHandle) noexcept override {
-        return has_failed ? Status::kError : Status::kOk;
-    }
+    Status on_execute(ContextHandle) noexcept override { return has_failed ? Status::kError : Status::kOk; }
     bool has_failed{false};
 };
 
@@ -336,7 +334,8 @@ class Bench final {
             return;
         }
         recover();
-        // A person waits until the fault has gone, here for a time that covers a notice that is still under way.
+        // A person waits until the fault has gone, here for a time that covers a notice that is still under
+        // way.
         phase_ = Phase::kBack;
         injected_at_ns_ = now_ns_;
     }

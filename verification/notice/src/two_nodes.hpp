@@ -33,7 +33,7 @@ struct Outcome {
     std::uint32_t invented{0U};                                ///< faults that no injection explains
     std::array<std::int64_t, kInjectionCount> delay_max_ns{};  ///< from injection to report
     std::uint64_t sent{0U};                                    ///< messages
-    std::uint64_t lost{0U};                                    ///< of these, by the channel within its tolerance
+    std::uint64_t lost{0U};  ///< of these, by the channel within its tolerance
 };
 
 /// Bound of a node that sends nothing and of a change in a notice, as the manual derives it.

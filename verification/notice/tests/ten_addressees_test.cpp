@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: one notice reaches ten addressees, each of which supervises the node by itself. Method: a table in virtual
-// time whose notifier is connected to ten monitors, as to ten link components.
+// Goal: one notice reaches ten addressees, each of which supervises the node by itself. Method: a table in
+// virtual time whose notifier is connected to ten monitors, as to ten link components.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,9 +18,9 @@ using namespace verification;
 using literals::operator""_us;
 using literals::operator""_ms;
 
-constexpr NoticeNode kNode{5U, 1_ms, 2U,
-                           std::array{"supervisor", "notifier", "m0", "m1", "m2", "m3", "m4", "m5", "m6", "m7", "m8",
-                                      "m9"}};
+constexpr NoticeNode kNode{
+    5U, 1_ms, 2U,
+    std::array{"supervisor", "notifier", "m0", "m1", "m2", "m3", "m4", "m5", "m6", "m7", "m8", "m9"}};
 constexpr NoticeLimits kLimits{};
 
 extern ExecutionSupervisor g_supervision;

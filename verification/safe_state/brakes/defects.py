@@ -105,7 +105,7 @@ BRAKE_DEFECTS: tuple[Defect[Brakes], ...] = (
                 bend(Where((OPEN, HELD), SS1), {"open": 0, "told_now": 1}, TOLD)),
     Defect("ss1-holds-while-its-brakes-close", "An SS1 takes torque away once its brakes were told to close.",
                 bend(Where((TOLD,), SS1), {"torque": 0})),
-    Defect("ss1-confirmed-by-its-brakes", "Standstill alone confirms an SS1 after the command, whatever the contacts say.", ignore_contacts),
+    Defect("ss1-confirmed-by-its-brakes", "Standstill alone confirms an SS1 after the command, with any report of the contacts.", ignore_contacts),
     Defect("contacts-confirm-after-the-command-only", "A contact stuck at closed confirms an SS1 in the cycle of the command.",
                 trust_stuck_contacts),
     Defect("torque-outlives-the-hold-only", "A standby gets torque also after a self test.",

@@ -53,7 +53,7 @@ BRAKE_PROPERTIES: tuple[Property, ...] = (
     ),
     Property(
         "contacts-confirm-after-the-command-only", "SWR-FSM-036",
-        "No SS1 is confirmed in the cycle in which its brakes are told to close, whatever their contacts say.",
+        "No SS1 is confirmed in the cycle in which its brakes are told to close, with any report of the contacts.",
         step="(=> (and (= q ProtectiveStopSs1) confirmed) was_closed)",
     ),
     Property(

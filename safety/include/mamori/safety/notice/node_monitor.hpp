@@ -34,8 +34,9 @@ namespace mamori::safety {
 /// Time:          O(components) per cycle. Memory: one notice, no heap.
 template <const auto& kNode, const auto& kLimits>
 class NodeMonitor final : public Component {
-    static_assert(is_valid(kLimits, get_period(kNode)),
-                  "limits of the notice out of range; specify 1 <= late_periods < silent_periods, start_periods >= 3");
+    static_assert(
+        is_valid(kLimits, get_period(kNode)),
+        "limits of the notice out of range; specify 1 <= late_periods < silent_periods, start_periods >= 3");
     using Notice = NoticeFor<kNode>;
 
   public:
@@ -61,8 +62,8 @@ class NodeMonitor final : public Component {
         return Status::kOk;
     }
 
-    /// Clears all faults; the order is found again. Only for a deliberate reset. A fault that is still present
-    /// latches again.
+    /// Clears all faults; the order is found again. Only for a deliberate reset. A fault that is still
+    /// present latches again.
     void acknowledge(Instant now) noexcept {
         checker_.restart();
         supervisor_.acknowledge(now);

@@ -60,9 +60,9 @@ constexpr bool is_valid(NoticeLimits limits, Duration period) noexcept {
 
 /// Summary of a node for other components of the receiver.
 struct NodeStatus {
-    std::uint32_t faults{0U};                        ///< bit n: the fault with number n is latched
-    NoticeFault first{NoticeFault::kNone};           ///< fault that was latched first
-    std::uint16_t component{kNoNoticeComponent};     ///< index of the first component with a fault
+    std::uint32_t faults{0U};                     ///< bit n: the fault with number n is latched
+    NoticeFault first{NoticeFault::kNone};        ///< fault that was latched first
+    std::uint16_t component{kNoNoticeComponent};  ///< index of the first component with a fault
     bool is_proven{false};  ///< a notice was accepted since the start or acknowledgement; no fault is latched
 };
 constexpr bool has_fault(const NodeStatus& status, NoticeFault fault) noexcept {

@@ -3,7 +3,8 @@
 /// Survival notice: the message by which a node reports state and health of each of its components, as both
 /// ends describe it.
 ///
-///     constexpr mamori::safety::NoticeNode kArm{0xA4A1U, 1_ms, 10U, std::array{"reader", "guard", "notifier"}};
+///     constexpr mamori::safety::NoticeNode kArm{0xA4A1U, 1_ms, 10U, std::array{"reader", "guard",
+///     "notifier"}};
 ///
 /// @satisfies SWR-NTC-001, SWR-NTC-003, SWR-NTC-007      Design: docs/design/supervision.md#survival-notice
 #ifndef MAMORI_SAFETY_NOTICE_NOTICE_HPP
@@ -31,9 +32,9 @@ inline constexpr std::size_t kNoticeComponentMax = 256U;
 /// Description of a node, the same constant in the programs of both ends.
 template <std::size_t kCount>
 struct NoticeNode {
-    std::uint32_t id{0U};             ///< of the node: data id of its notice, unique among all E2E channels
-    Duration frame{0};                ///< major frame of the node, > 0
-    std::uint32_t every_frames{0U};   ///< a notice is sent in each of these major frames, >= 1
+    std::uint32_t id{0U};            ///< of the node: data id of its notice, unique among all E2E channels
+    Duration frame{0};               ///< major frame of the node, > 0
+    std::uint32_t every_frames{0U};  ///< a notice is sent in each of these major frames, >= 1
     std::array<const char*, kCount> components{};  ///< names of its table, in table order; static storage
 };
 template <std::size_t kCount>
@@ -98,9 +99,9 @@ constexpr ComponentReport to_report(std::uint8_t byte) noexcept {
 /// Content of a notice. The number of the notice is the counter of its E2E header, the node its data id.
 template <std::size_t kCount>
 struct NoticeValue {
-    std::uint64_t version{0U};  ///< calc_version() of the description
-    std::uint64_t frame{0U};    ///< number of the major frame that sent it
-    std::uint8_t health{0U};    ///< GlobalStatus
+    std::uint64_t version{0U};                      ///< calc_version() of the description
+    std::uint64_t frame{0U};                        ///< number of the major frame that sent it
+    std::uint8_t health{0U};                        ///< GlobalStatus
     std::array<std::uint8_t, kCount> components{};  ///< to_byte() of each
 };
 

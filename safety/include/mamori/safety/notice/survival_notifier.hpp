@@ -32,7 +32,8 @@ void report_components(Span<Component* const> components, const ExecutionSupervi
 /// Sends the notice. Connect `notice` to one link component per addressee, or to receivers in the same table.
 /// Run it in the window of ExecutionSupervisor::step(), after it.
 ///
-/// @tparam kNode constexpr NoticeNode of static storage duration, which describes the table of this component.
+/// @tparam kNode constexpr NoticeNode of static storage duration, which describes the table of this
+/// component.
 ///
 /// Thread safety: as Component. Time: O(components). Memory: one message, no heap.
 template <const auto& kNode>
