@@ -90,9 +90,9 @@ class E2eInPort final {
             restart_count_ = source_.get_restart_count();
             source_.forget();
             has_value_ = false;  // whatever this reading brings: what is held is of another mode or run
-            waiting_ = CheckStatus::kNoNewData;
+            forget_waiting();
         }
-        outcome_ = has_frame() ? judge_frame(now) : note_silence(now);
+        outcome_ = judge_reading(now);
         if (!machine_.is_valid()) {
             has_value_ = false;
         }
@@ -104,8 +104,7 @@ class E2eInPort final {
             value = value_;
             return E2eWorth::kNew;
         }
-        if (has_value_ &&
-            judge_age(origin_, now, kLimits.age_max, kLimits.lead_max) == E2eOutcome::kAccepted) {
+        if (has_value_ && judge(origin_, now) == E2eOutcome::kAccepted) {
             value = value_;
             return E2eWorth::kHeld;
         }
@@ -120,7 +119,7 @@ class E2eInPort final {
     void restart() noexcept {
         checker_.restart();
         machine_.restart();  // and the next reading drops the value
-        waiting_ = CheckStatus::kNoNewData;
+        forget_waiting();
     }
 
     /// What became of the last reading; kSilent before the first.
@@ -134,46 +133,59 @@ class E2eInPort final {
     ChannelState get_state() const noexcept { return machine_.get_state(); }
 
   private:
-    E2eOutcome note_silence(Instant now) noexcept {
-        if (waiting_ != CheckStatus::kNoNewData) {
-            return open(detail::view_bytes(source_.get_taken()), waiting_, true, now);
-        }
-        note(checker_.check_silence());
-        return E2eOutcome::kSilent;
-    }
-    E2eOutcome judge_frame(Instant now) noexcept {
-        const Span<const std::byte> frame = detail::view_bytes(source_.take());
-        const CheckStatus status = checker_.check(frame);
-        if (!is_usable(status)) {
+    /// Only a stamp can be later than the planned start of a window of the same system.
+    static constexpr bool kMayWait = detail::kIsStamped<Value>;
+
+    bool has_waiting() const noexcept { return kMayWait && waiting_ != CheckStatus::kNoNewData; }
+    void forget_waiting() noexcept {
+        if constexpr (kMayWait) {
             waiting_ = CheckStatus::kNoNewData;
+        }
+    }
+    /// Checks the new message, or takes the one that waits, or records that none has come.
+    E2eOutcome judge_reading(Instant now) noexcept {
+        if (has_frame()) {
+            const Span<const std::byte> frame = detail::view_bytes(source_.take());
+            const CheckStatus status = checker_.check(frame);
+            if (is_usable(status)) {
+                return open(frame, status, now);
+            }
+            forget_waiting();
             note(status);
             return E2eOutcome::kRefused;
         }
-        return open(frame, status, waiting_ != CheckStatus::kNoNewData, now);
+        if (has_waiting()) {
+            return open(detail::view_bytes(source_.get_taken()), waiting_, now);
+        }
+        note(checker_.check_silence());
+        return E2eOutcome::kSilent;
     }
     /// Takes the value out of a message that the check accepted. What was held before is older, and is
     /// dropped with a message that is not for use. A reader that is released late may find a message that was
     /// sent after the planned start of its window: it waits for the next reading, unless one waited before.
     /// @return kAccepted, kMalformed, kEarly or kLate.
-    E2eOutcome open(Span<const std::byte> frame, CheckStatus status, bool has_waited, Instant now) noexcept {
+    E2eOutcome open(Span<const std::byte> frame, CheckStatus status, Instant now) noexcept {
         const Span<const std::byte> payload =
             frame.subspan(Message::kPayloadAt, frame.size() - Message::kPayloadAt);
         const Instant origin =
             detail::read_origin<Value>(payload, Message::kByteOrder, source_.get_published_at());
-        E2eOutcome outcome = judge_age(origin, now, kLimits.age_max, kLimits.lead_max);
-        waiting_ = CheckStatus::kNoNewData;
-        if (outcome == E2eOutcome::kEarly && !has_waited) {
+        if (kMayWait && !has_waiting() && judge(origin, now) == E2eOutcome::kEarly) {
             waiting_ = status;
             note(CheckStatus::kNoNewData);
-            return outcome;
+            return E2eOutcome::kEarly;
         }
-        if (decode(payload, Message::kByteOrder, value_) != Status::kOk) {
-            outcome = E2eOutcome::kMalformed;
+        forget_waiting();
+        E2eOutcome outcome = E2eOutcome::kMalformed;
+        if (decode(payload, Message::kByteOrder, value_) == Status::kOk) {
+            origin_ = origin;
+            outcome = judge(origin, now);
         }
-        origin_ = origin;
         has_value_ = outcome == E2eOutcome::kAccepted;
         note(has_value_ ? status : CheckStatus::kError);
         return outcome;
+    }
+    static constexpr E2eOutcome judge(Instant origin, Instant now) noexcept {
+        return judge_age(origin, now, kLimits.age_max, kLimits.lead_max);
     }
     void note(CheckStatus status) noexcept {
         static_cast<void>(machine_.check(to_profile_status(status, kLimits.rule)));  // its demands are sound
