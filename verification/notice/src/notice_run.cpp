@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
     const unsigned long long frames = argc == 4 ? std::strtoull(argv[1], nullptr, 10) : 0U;
     const unsigned long long injections = argc == 4 ? std::strtoull(argv[2], nullptr, 10) : 0U;
     if (frames == 0U || injections > frames / 400U) {
-        std::fprintf(stderr, "notice_run: specify FRAMES >= 1, INJECTIONS <= FRAMES / 400, and SEED\n");
+        static_cast<void>(
+            std::fprintf(stderr, "notice_run: specify FRAMES >= 1, INJECTIONS <= FRAMES / 400, and SEED\n"));
         return 2;
     }
     const auto seed = static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10));

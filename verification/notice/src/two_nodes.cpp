@@ -197,11 +197,6 @@ class Bench final {
         static_cast<void>(g_supervision.watch(kWatched));  // done by an earlier run
         arm_.executive.set_observer(&g_supervision);
     }
-    ~Bench() {
-        recover();
-        arm_.end();
-        base_.end();
-    }
     Bench(const Bench&) = delete;
     Bench& operator=(const Bench&) = delete;
 
@@ -217,6 +212,9 @@ class Bench final {
             }
             run_frame();
         }
+        recover();
+        arm_.end();
+        base_.end();
         return outcome_;
     }
 
