@@ -28,6 +28,7 @@ struct Step {
     Reaction demand;
     bool is_standing;
     bool are_closed;
+    bool has_opened;  ///< the contacts reported open in the cycle of the command or after it
     StopOutputs outputs;
     Duration elapsed;      ///< since the entry into `before`
     std::int64_t closing;  ///< cycles since the brakes were told to close, this one not counted; 0 while open
@@ -41,13 +42,14 @@ struct Node {
     SafeStateInputs last;
     StopOutputs outputs;
     bool are_closed;
+    bool has_opened;
     bool has_run;
     std::int64_t closing;
     std::int64_t held;
 };
 
 using Key =
-    std::tuple<SafeState, bool, bool, bool, bool, bool, bool, std::int64_t, std::int64_t, std::int64_t>;
+    std::tuple<SafeState, bool, bool, bool, bool, bool, bool, bool, std::int64_t, std::int64_t, std::int64_t>;
 
 Key make_key(const Node& node) {
     const std::int64_t age = (node.last.now - node.machine.get_entered_at()).ns;
@@ -56,6 +58,7 @@ Key make_key(const Node& node) {
             node.last.reset_button,
             node.has_run,
             node.are_closed,
+            node.has_opened,
             node.outputs.torque_enable,
             node.outputs.brake_release,
             std::min(age, kOldest),
@@ -93,12 +96,13 @@ Node advance(const Node& from, SafeStateInputs inputs, bool are_closed, std::vec
     to.outputs = to.brakes.apply(after, inputs.now);
     to.last = inputs;
     to.are_closed = are_closed;
+    to.has_opened = !are_closed || (from.has_opened && !from.outputs.brake_release);
     const bool is_running = inputs.self_test == SelfTestStatus::kRunning;
     to.has_run = before == after && (from.has_run || is_running);
     to.closing = from.outputs.brake_release ? 0 : std::min(from.closing + 1, kOldest);
     to.held = before == SafeState::kStandstillHold ? 0 : std::min(from.held + 1, kOldest);
-    steps.push_back(
-        {before, after, inputs.demand, is_standing, are_closed, to.outputs, elapsed, to.closing, to.held});
+    steps.push_back({before, after, inputs.demand, is_standing, are_closed, to.has_opened, to.outputs,
+                     elapsed, to.closing, to.held});
     to.closing = to.outputs.brake_release ? 0 : to.closing;
     return to;
 }
@@ -114,6 +118,7 @@ std::vector<Step> search(BrakeLimits limits) {
                                BrakeSequence{limits},
                                held,
                                {true, true, false, false},
+                               false,
                                false,
                                false,
                                0,
@@ -137,6 +142,11 @@ const std::vector<Step>& get_steps(bool has_contacts) {
     static const std::vector<Step> with_contacts = search({kCloses, true});
     static const std::vector<Step> without_contacts = search({kCloses, false});
     return has_contacts ? with_contacts : without_contacts;
+}
+
+/// True when brakes with contacts count as engaged. Contacts that never reported open may be stuck.
+bool have_contacts_engaged(const Step& step) {
+    return step.are_closed && (step.has_opened || step.closing >= kCloses.ns);
 }
 
 /// Calls `judge` for each step, with brakes that report and with others.
@@ -181,7 +191,7 @@ TEST(BrakeSequencePropertyTest, TorqueOutlivesItsStateAfterTheHoldOnlyAndForLess
 
     expect_always([](const Step& step, bool has_contacts) {
         const bool is_own = calc_stop_outputs(step.after).torque_enable;
-        const bool have_bitten = has_contacts && step.are_closed;
+        const bool have_bitten = has_contacts && have_contacts_engaged(step);
         const bool may_outlive = step.after == SafeState::kStandby && step.held < kCloses.ns && !have_bitten;
         const bool must_outlive = may_outlive && step.before == SafeState::kStandstillHold;
         return step.outputs.torque_enable ? is_own || may_outlive : !is_own && !must_outlive;
@@ -210,7 +220,7 @@ TEST(BrakeSequencePropertyTest, Ss1EndsByItsBrakesItsBoundOrSomethingWorse) {
 
     expect_always([](const Step& step, bool has_contacts) {
         const bool has_ended = step.before == SafeState::kProtectiveStopSs1 && step.after != step.before;
-        const bool have_bitten = has_contacts ? step.are_closed : step.closing >= kCloses.ns;
+        const bool have_bitten = has_contacts ? have_contacts_engaged(step) : step.closing >= kCloses.ns;
         const bool is_worse = step.demand == Reaction::kSto || step.elapsed >= kBounds.ss1_within;
         return !has_ended || is_worse || (step.is_standing && have_bitten);
     });

@@ -105,6 +105,60 @@ TEST_F(BrakeSequenceTest, ClockThatRunsBackwardsConfirmsNothing) {
     EXPECT_FALSE(without_contacts_.confirm(SafeState::kProtectiveStopSs1, true, false, Instant{-9000}));
 }
 
+TEST_F(BrakeSequenceTest, ContactStuckAtClosedConfirmsNothingBeforeTheClosingTime) {
+    verifies("SWR-FSM-036", Technique::kFaultInjection, Polarity::kViolation);
+    static_cast<void>(with_contacts_.confirm(SafeState::kProtectiveStopSs1, false, true, Instant{999}));
+    static_cast<void>(with_contacts_.apply(SafeState::kProtectiveStopSs1, Instant{999}));
+
+    EXPECT_FALSE(with_contacts_.confirm(SafeState::kProtectiveStopSs1, true, true, Instant{1000}))
+        << "the cycle of the command";
+    EXPECT_TRUE(with_contacts_.apply(SafeState::kProtectiveStopSs1, Instant{1000}) == kStoppingOnBrakes);
+    EXPECT_FALSE(with_contacts_.confirm(SafeState::kProtectiveStopSs1, true, true, Instant{1029}));
+    EXPECT_TRUE(with_contacts_.confirm(SafeState::kProtectiveStopSs1, true, true, Instant{1030}));
+}
+
+TEST_F(BrakeSequenceTest, ContactStuckAtClosedTakesNoTorqueFromTheHandOver) {
+    verifies("SWR-FSM-036", Technique::kFaultInjection, Polarity::kViolation);
+    static_cast<void>(with_contacts_.confirm(SafeState::kStandstillHold, true, true, Instant{900}));
+    ASSERT_TRUE(with_contacts_.apply(SafeState::kStandstillHold, Instant{900}) == kHolding);
+    static_cast<void>(with_contacts_.confirm(SafeState::kStandstillHold, true, true, Instant{1000}));
+
+    EXPECT_TRUE(with_contacts_.apply(SafeState::kStandby, Instant{1000}) == kHandingOver);
+    static_cast<void>(with_contacts_.confirm(SafeState::kStandby, true, true, Instant{1029}));
+    EXPECT_TRUE(with_contacts_.apply(SafeState::kStandby, Instant{1029}) == kHandingOver);
+    static_cast<void>(with_contacts_.confirm(SafeState::kStandby, true, true, Instant{1030}));
+    EXPECT_TRUE(with_contacts_.apply(SafeState::kStandby, Instant{1030}) == kOff);
+}
+
+TEST_F(BrakeSequenceTest, ContactThatReportedOpenBeforeOrAfterTheCommandConfirmsAtOnce) {
+    verifies("SWR-FSM-036", Technique::kEquivalenceClasses);
+    stand_in_ss1(with_contacts_);
+    EXPECT_TRUE(with_contacts_.confirm(SafeState::kProtectiveStopSs1, true, true, Instant{1001}))
+        << "open in the cycle of the command";
+
+    BrakeSequence opened_late{kWithContacts};
+    static_cast<void>(opened_late.confirm(SafeState::kProtectiveStopSs1, true, true, Instant{1000}));
+    static_cast<void>(opened_late.apply(SafeState::kProtectiveStopSs1, Instant{1000}));
+    static_cast<void>(opened_late.confirm(SafeState::kProtectiveStopSs1, true, false, Instant{1001}));
+    EXPECT_TRUE(opened_late.confirm(SafeState::kProtectiveStopSs1, true, true, Instant{1002}))
+        << "open after the command";
+}
+
+TEST_F(BrakeSequenceTest, ContactThatOpenedInAnEarlierStopProvesNothingForThisOne) {
+    verifies("SWR-FSM-036", Technique::kStateTransition, Polarity::kViolation);
+    stand_in_ss1(with_contacts_);
+    ASSERT_TRUE(with_contacts_.confirm(SafeState::kProtectiveStopSs1, true, true, Instant{1010}));
+    static_cast<void>(with_contacts_.apply(SafeState::kSafe, Instant{1010}));
+    static_cast<void>(with_contacts_.confirm(SafeState::kStandby, true, true, Instant{2000}));
+    static_cast<void>(with_contacts_.apply(SafeState::kOperational, Instant{2000}));
+    static_cast<void>(with_contacts_.confirm(SafeState::kOperational, true, true, Instant{3000}));
+    static_cast<void>(with_contacts_.apply(SafeState::kProtectiveStopSs1, Instant{3000}));
+
+    EXPECT_FALSE(with_contacts_.confirm(SafeState::kProtectiveStopSs1, true, true, Instant{3001}));
+    EXPECT_FALSE(with_contacts_.confirm(SafeState::kProtectiveStopSs1, true, true, Instant{3030}));
+    EXPECT_TRUE(with_contacts_.confirm(SafeState::kProtectiveStopSs1, true, true, Instant{3031}));
+}
+
 TEST_F(BrakeSequenceTest, OtherStatesAreConfirmedByStandstillAlone) {
     verifies("SWR-FSM-027", Technique::kStateTransition);
 

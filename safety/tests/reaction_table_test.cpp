@@ -188,22 +188,30 @@ constexpr std::array<ReactionRow, 4U> kModeTable{{
 }};
 static_assert(to_modes(Mode::kAutomatic, Mode::kService) == 5U && to_modes() == 0U);
 
-Reaction calc_in(Mode mode, const FaultRegister& faults) {
+Reaction calc_in(Mode mode, FaultRegister& faults) {
     return calc_reaction(kModeTable, faults, static_cast<std::size_t>(mode)).reaction;
+}
+
+/// Demand for one fault that is latched in `mode`, in no other mode before.
+Reaction calc_first_in(Mode mode, Fault fault) {
+    std::array<FaultRecord, kFaultCount> records{};
+    FaultRegister faults{records};
+    faults.report(static_cast<FaultIndex>(fault), true, Instant{1});
+    return calc_in(mode, faults);
 }
 
 TEST_F(ReactionTableTest, ModeDecidesWhichRowAnswers) {
     verifies("SWR-FLT-010");
-    latch(Fault::kNoise);
 
-    EXPECT_EQ(calc_in(Mode::kAutomatic, faults_), Reaction::kSs1);
+    EXPECT_EQ(calc_first_in(Mode::kAutomatic, Fault::kNoise), Reaction::kSs1);
+    EXPECT_EQ(calc_first_in(Mode::kManual, Fault::kNoise), Reaction::kDegrade);
+    EXPECT_EQ(calc_first_in(Mode::kService, Fault::kNoise), Reaction::kDegrade);
+    latch(Fault::kNoise);
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kDegrade);
+    latch(Fault::kWarm);
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kSs2) << "the worst of all latched faults";
     EXPECT_EQ(calc_reaction(kModeTable, faults_).reaction, Reaction::kSs1)
         << "mode 0 unless another is named";
-    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kDegrade);
-    EXPECT_EQ(calc_in(Mode::kService, faults_), Reaction::kDegrade);
-    latch(Fault::kWarm);
-    EXPECT_EQ(calc_in(Mode::kAutomatic, faults_), Reaction::kSs1);
-    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kSs2) << "the worst of all latched faults";
 }
 
 TEST_F(ReactionTableTest, FaultWithoutARowForTheModeCutsTheTorque) {
@@ -212,7 +220,7 @@ TEST_F(ReactionTableTest, FaultWithoutARowForTheModeCutsTheTorque) {
 
     EXPECT_EQ(calc_in(Mode::kService, faults_), Reaction::kNone);
     EXPECT_EQ(calc_in(Mode::kAutomatic, faults_), Reaction::kSto);
-    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kSto);
+    EXPECT_EQ(calc_first_in(Mode::kManual, Fault::kSlip), Reaction::kSto);
 }
 
 TEST_F(ReactionTableTest, ModeThatCannotBeCutsTheTorqueForEveryFault) {
@@ -221,7 +229,62 @@ TEST_F(ReactionTableTest, ModeThatCannotBeCutsTheTorqueForEveryFault) {
 
     EXPECT_EQ(calc_reaction(kModeTable, faults_, kSystemModeMax - 1U).reaction, Reaction::kSs2);
     EXPECT_EQ(calc_reaction(kModeTable, faults_, kSystemModeMax).reaction, Reaction::kSto);
-    EXPECT_EQ(calc_reaction(kModeTable, faults_, static_cast<std::size_t>(-1)).reaction, Reaction::kSto);
+    EXPECT_EQ(calc_first_in(static_cast<Mode>(255), Fault::kWarm), Reaction::kSto);
+}
+
+TEST_F(ReactionTableTest, ModeSwitchDoesNotLowerTheDemandOfALatchedFault) {
+    verifies("SWR-FLT-012", Technique::kStateTransition, Polarity::kViolation);
+    latch(Fault::kNoise);
+    ASSERT_EQ(calc_in(Mode::kAutomatic, faults_), Reaction::kSs1);
+
+    const ReactionDemand demand = calc_reaction(kModeTable, faults_, 1U);
+    EXPECT_EQ(demand.reaction, Reaction::kSs1);
+    EXPECT_EQ(demand.within, 10_ms);
+    EXPECT_EQ(demand.fault, static_cast<FaultIndex>(Fault::kNoise));
+    latch(Fault::kWarm);
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kSs1) << "a lesser fault hides nothing";
+}
+
+TEST_F(ReactionTableTest, ModeSwitchRaisesTheDemandOfALatchedFault) {
+    verifies("SWR-FLT-012", Technique::kStateTransition, Polarity::kViolation);
+    latch(Fault::kNoise);
+    ASSERT_EQ(calc_in(Mode::kManual, faults_), Reaction::kDegrade);
+
+    EXPECT_EQ(calc_in(Mode::kAutomatic, faults_), Reaction::kSs1);
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kSs1);
+}
+
+TEST_F(ReactionTableTest, ShorterTimeOfEquallySevereModesIsKept) {
+    verifies("SWR-FLT-012", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr std::array<ReactionRow, 2U> kTimes{{
+        react_in(to_modes(Mode::kAutomatic), Fault::kNoise, Reaction::kSs1, 10_ms),
+        react_in(to_modes(Mode::kManual), Fault::kNoise, Reaction::kSs1, 20_ms),
+    }};
+    latch(Fault::kNoise);
+    ASSERT_EQ(calc_reaction(kTimes, faults_, 1U).within, 20_ms);
+
+    EXPECT_EQ(calc_reaction(kTimes, faults_, 0U).within, 10_ms);
+    EXPECT_EQ(calc_reaction(kTimes, faults_, 1U).within, 10_ms);
+}
+
+TEST_F(ReactionTableTest, DemandOfAnInvalidModeStaysInTheNextValidOne) {
+    verifies("SWR-FLT-012", Technique::kFaultInjection, Polarity::kViolation);
+    latch(Fault::kWarm);
+    ASSERT_EQ(calc_reaction(kModeTable, faults_, kSystemModeMax).reaction, Reaction::kSto);
+
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kSto);
+}
+
+TEST_F(ReactionTableTest, AcknowledgementEndsTheDemandAndALaterFaultGetsTheRowOfItsMode) {
+    verifies("SWR-FLT-012", Technique::kStateTransition);
+    latch(Fault::kNoise);
+    ASSERT_EQ(calc_in(Mode::kAutomatic, faults_), Reaction::kSs1);
+    faults_.report(static_cast<FaultIndex>(Fault::kNoise), false, Instant{2});
+    ASSERT_EQ(faults_.acknowledge_all(), Status::kOk);
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kNone);
+
+    latch(Fault::kNoise);
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kDegrade);
 }
 
 TEST_F(ReactionTableTest, RowWithoutAModeOrWithAnUnknownOneIsInvalid) {

@@ -79,7 +79,10 @@ SLIPS = {
         # If the push comes at the end of the stop, the brakes stay closed and their time restarts: the properties about this time fail.
         ("brakes-open-by-a-start-only", "silent-brakes-are-overdue", "torque-outlives-the-hold-within-the-closing-time")),
     "standstill alone confirms": Slip(
-        BRAKES, "return is_standing && have_bitten(now);", "return is_standing;", ("ss1-confirmed-by-its-brakes",)),
+        BRAKES, "return is_standing && have_bitten(now);", "return is_standing;",
+        ("ss1-confirmed-by-its-brakes", "contacts-confirm-after-the-command-only")),
+    "stuck contact confirms": Slip(
+        BRAKES, "are_closed_ && (have_reported_open_ || is_time_over)", "are_closed_", ("contacts-confirm-after-the-command-only",)),
     "torque outlives every stop": Slip(
         BRAKES, "state == SafeState::kStandby && was_held", "was_held", ("torque-outlives-the-hold-only", "sto-waits-for-no-brakes")),
     "late by one tick": Slip(

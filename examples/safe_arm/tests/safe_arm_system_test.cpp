@@ -60,7 +60,7 @@ TEST(ArmReactionsTest, EachFaultAloneLeadsToItsRow) {
 TEST(ArmReactionsTest, NoFaultDemandsNothing) {
     verifies("SWR-SAF-002");
     std::array<FaultRecord, kArmFaultCount> storage{};
-    const FaultRegister faults{storage};
+    FaultRegister faults{storage};
 
     EXPECT_EQ(calc_reaction(kArmReactions, faults).reaction, Reaction::kNone);
 }

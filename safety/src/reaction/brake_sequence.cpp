@@ -11,11 +11,13 @@ void BrakeSequence::tell_to_close(Instant now) noexcept {
 }
 
 bool BrakeSequence::have_bitten(Instant now) const noexcept {
-    return limits_.has_contacts ? are_closed_ : calc_elapsed(told_at_, now) >= limits_.closes_within;
+    const bool is_time_over = calc_elapsed(told_at_, now) >= limits_.closes_within;
+    return limits_.has_contacts ? are_closed_ && (have_reported_open_ || is_time_over) : is_time_over;
 }
 
 bool BrakeSequence::confirm(SafeState state, bool is_standing, bool are_closed, Instant now) noexcept {
     are_closed_ = are_closed;
+    have_reported_open_ = !are_closed || (is_told_ && have_reported_open_);
     if (state != SafeState::kProtectiveStopSs1) {
         return is_standing;
     }

@@ -116,6 +116,7 @@ Status FaultRegister::acknowledge(FaultIndex fault) noexcept {
     record.is_latched = false;
     record.count = 0U;
     record.order = 0U;
+    record.demand = ReactionDemand{};
     --latched_count_;
     if (latched_count_ == 0U) {
         next_order_ = 1U;
@@ -128,6 +129,14 @@ Status FaultRegister::acknowledge_all() noexcept {
         static_cast<void>(acknowledge(static_cast<FaultIndex>(i)));  // refused by those that must stay
     }
     return latched_count_ == 0U ? Status::kOk : Status::kPreconditionNotMet;
+}
+
+const ReactionDemand& FaultRegister::raise(const ReactionDemand& demand) noexcept {
+    FaultRecord& record = records_[demand.fault];
+    if (record.is_latched && is_worse(demand, record.demand)) {
+        record.demand = demand;
+    }
+    return record.demand;
 }
 
 FaultIndex FaultRegister::get_first() const noexcept {

@@ -4,34 +4,27 @@
 namespace mamori::safety {
 namespace {
 
-/// The row of a fault in a mode. One that was never declared is answered with the severest reaction at once.
-ReactionRow find_row(Span<const ReactionRow> table, FaultIndex fault, std::size_t mode) noexcept {
+/// The demand of a fault in a mode. A fault without a row gets the severest reaction immediately.
+ReactionDemand find_demand(Span<const ReactionRow> table, FaultIndex fault, std::size_t mode) noexcept {
     for (const ReactionRow& row : table) {
         if (answers(row, fault, mode)) {
-            return row;
+            return {row.reaction, fault, row.within};
         }
     }
-    return {fault, Reaction::kSto, Duration{0}};
-}
-
-bool is_worse(const ReactionRow& row, const ReactionDemand& demand) noexcept {
-    if (demand.fault == kNoFault || row.reaction > demand.reaction) {
-        return true;
-    }
-    return row.reaction == demand.reaction && row.within < demand.within;
+    return {Reaction::kSto, fault, Duration{0}};
 }
 
 }  // namespace
 
-ReactionDemand calc_reaction(Span<const ReactionRow> table, const FaultRegister& faults,
+ReactionDemand calc_reaction(Span<const ReactionRow> table, FaultRegister& faults,
                              std::size_t mode) noexcept {
     ReactionDemand worst{};
     for (std::size_t i = 0U; i < faults.get_capacity(); ++i) {
         const auto fault = static_cast<FaultIndex>(i);
         if (faults.is_latched(fault)) {
-            const ReactionRow row = find_row(table, fault, mode);
-            if (is_worse(row, worst)) {
-                worst = {row.reaction, fault, row.within};
+            const ReactionDemand& demand = faults.raise(find_demand(table, fault, mode));
+            if (is_worse(demand, worst)) {
+                worst = demand;
             }
         }
     }

@@ -137,6 +137,31 @@ void CheckpointSupervisor::count_report(CheckpointIndex checkpoint) noexcept {
     }
 }
 
+/// Counts the reference cycle as wrong, once.
+void CheckpointSupervisor::record_wrong_cycle(std::size_t row) noexcept {
+    AliveState& state = alives_[row];
+    if (state.is_wrong) {
+        return;
+    }
+    const EntityIndex entity = get_owner(table_.alives[row].checkpoint);
+    state.is_wrong = true;
+    ++state.failed_cycles;
+    if (state.failed_cycles > table_.entities[entity].failed_reference_cycles) {
+        latch(entities_[entity], CheckpointViolation::kAlive);
+    }
+}
+
+/// Checks the reference cycle that a mode switch ends before its time: the reports up to now must not exceed
+/// its maximum, nor be fewer than the part that has elapsed requires.
+void CheckpointSupervisor::end_alive_early(std::size_t row) noexcept {
+    const AliveCount& limits = table_.alives[row].count;
+    const AliveState& state = alives_[row];
+    const std::uint32_t least = limits.get_least() * state.cycle / limits.reference_cycles;
+    if (state.count > limits.get_most() || state.count < least) {
+        record_wrong_cycle(row);
+    }
+}
+
 /// Ends a supervision cycle of one alive supervision. What is wrong in any case is so at once, once in each
 /// reference cycle; whether the reports were enough is known at its end.
 /// @return true when nothing was wrong in this cycle.
@@ -155,12 +180,8 @@ bool CheckpointSupervisor::end_alive_cycle(std::size_t row) noexcept {
     const bool is_stalled = state.silent_cycles > limits.calc_silence_max();
     const bool is_too_few = is_end && state.count < limits.get_least();
     const bool is_wrong = is_stalled || is_too_few || state.count > limits.get_most();
-    if (is_wrong && !state.is_wrong) {
-        state.is_wrong = true;
-        ++state.failed_cycles;
-        if (state.failed_cycles > table_.entities[entity].failed_reference_cycles) {
-            latch(entities_[entity], CheckpointViolation::kAlive);
-        }
+    if (is_wrong) {
+        record_wrong_cycle(row);
     }
     if (is_end) {
         if (!state.is_wrong && state.failed_cycles > 0U) {
@@ -249,8 +270,7 @@ SupervisionStatus CheckpointSupervisor::step(Instant now, ProofChain& chain) noe
     }
     for (EntityIndex e = 0U; e < get_entity_count(); ++e) {
         form_status(e, now);
-        const bool is_wanted = (table_.entities[e].modes & to_mask(mode_)) != 0U;
-        const EntityStatus wanted = is_wanted ? EntityStatus::kOk : EntityStatus::kDeactivated;
+        const EntityStatus wanted = is_wanted(e, mode_) ? EntityStatus::kOk : EntityStatus::kDeactivated;
         chain.add(ProofLink::kEntity, e, entities_[e].status == wanted ? 0U : 1U);
     }
     status_ = form_whole();
@@ -263,16 +283,18 @@ SupervisionStatus CheckpointSupervisor::step(Instant now) noexcept {
     return step(now, unasked);
 }
 
-/// Forgets what the entity was in the middle of; wrong reference cycles stay counted.
+/// Forgets the run, the reference cycle and the deadlines that the entity had begun. Silent cycles and wrong
+/// reference cycles stay counted.
 void CheckpointSupervisor::rest(EntityIndex entity) noexcept {
     EntityState& state = entities_[entity];
     state.is_run_begun = false;
     state.has_reported = false;
     for (std::size_t i = 0U; i < alives_.size(); ++i) {
         if (get_owner(table_.alives[i].checkpoint) == entity) {
-            const std::uint32_t failed_cycles = alives_[i].failed_cycles;
+            const AliveState before = alives_[i];
             alives_[i] = AliveState{};
-            alives_[i].failed_cycles = failed_cycles;
+            alives_[i].silent_cycles = before.has_reported ? 0U : before.silent_cycles;
+            alives_[i].failed_cycles = before.failed_cycles;
         }
     }
     for (std::size_t i = 0U; i < deadlines_.size(); ++i) {
@@ -293,11 +315,16 @@ Status CheckpointSupervisor::set_mode(std::size_t mode, Instant now) noexcept {
     for (std::size_t i = 0U; i < deadlines_.size(); ++i) {
         static_cast<void>(judge_running(i, now));
     }
+    for (std::size_t i = 0U; i < alives_.size(); ++i) {
+        const EntityIndex entity = get_owner(table_.alives[i].checkpoint);
+        if (is_judged(entity) && !is_wanted(entity, mode)) {
+            end_alive_early(i);
+        }
+    }
     mode_ = mode;
     for (EntityIndex e = 0U; e < get_entity_count(); ++e) {
-        const bool is_wanted = (table_.entities[e].modes & to_mask(mode)) != 0U;
-        if (entities_[e].is_active != is_wanted) {
-            entities_[e].is_active = is_wanted;
+        if (entities_[e].is_active != is_wanted(e, mode)) {
+            entities_[e].is_active = !entities_[e].is_active;
             rest(e);
         }
         form_status(e, now);
@@ -316,7 +343,7 @@ Status CheckpointSupervisor::acknowledge(EntityIndex entity) noexcept {
     rest(entity);
     for (std::size_t i = 0U; i < alives_.size(); ++i) {
         if (get_owner(table_.alives[i].checkpoint) == entity) {
-            alives_[i].failed_cycles = 0U;
+            alives_[i] = AliveState{};
         }
     }
     form_status(entity, now_);

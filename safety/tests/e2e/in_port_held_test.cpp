@@ -164,9 +164,124 @@ TEST(E2eAgeTest, StampOfTheFutureIsRefused) {
     StampedEnds ends{};
     static_cast<void>(ends.send({ends.now.ns, {1.0, Gear::kDrive}}));
     ASSERT_EQ(ends.send({(ends.now + 10_ms).ns, {1.0, Gear::kDrive}}), E2eWorth::kNew);  // this very instant
-    EXPECT_EQ(ends.send({(ends.now + 10_ms).ns + 1, {2.0, Gear::kDrive}}), E2eWorth::kSubstitute);
+    EXPECT_EQ(ends.send({(ends.now + 10_ms).ns + 1, {2.0, Gear::kDrive}}), E2eWorth::kHeld);
+    EXPECT_EQ(ends.value.value.rad_s, 1.0) << "the value of before";
     EXPECT_EQ(ends.sut.get_outcome(), E2eOutcome::kEarly);
-    EXPECT_EQ(ends.read(), E2eWorth::kSubstitute);  // nor is it there when its instant comes
+}
+
+// A reader that is released late may find a message that was sent after the planned start of its window.
+
+TEST(E2eLateReaderTest, MessageSentAfterThePlannedStartWaitsForTheNextReading) {
+    verifies("SWR-E2E-042", Technique::kFaultInjection);
+    StampedEnds ends{};
+    static_cast<void>(ends.send({ends.now.ns, {1.0, Gear::kDrive}}));
+    ASSERT_EQ(ends.send({ends.now.ns, {1.0, Gear::kDrive}}), E2eWorth::kNew);
+
+    EXPECT_EQ(ends.send({(ends.now + 15_ms).ns, {2.0, Gear::kDrive}}), E2eWorth::kHeld);
+    EXPECT_EQ(ends.value.value.rad_s, 1.0);
+    EXPECT_EQ(ends.sut.get_outcome(), E2eOutcome::kEarly);
+    EXPECT_EQ(ends.read(), E2eWorth::kNew) << "its instant has come";
+    EXPECT_EQ(ends.value.value.rad_s, 2.0);
+    EXPECT_EQ(ends.sut.get_outcome(), E2eOutcome::kAccepted);
+    EXPECT_EQ(ends.read(), E2eWorth::kHeld) << "once only";
+    EXPECT_EQ(ends.sut.get_count(E2eOutcome::kAccepted), 2U);
+    EXPECT_EQ(ends.sut.get_count(E2eOutcome::kEarly), 1U);
+}
+
+TEST(E2eLateReaderTest, QueuedMessageSentAfterThePlannedStartWaitsForTheNextReading) {
+    verifies("SWR-E2E-042", Technique::kFaultInjection);
+    Ends<StampedMessage, kYoung, mamori::QueueInPort<StampedMessage::Frame, 2U>> ends{};
+    static_cast<void>(ends.send({ends.now.ns, {1.0, Gear::kDrive}}));
+    ASSERT_EQ(ends.send({ends.now.ns, {1.0, Gear::kDrive}}), E2eWorth::kNew);
+
+    EXPECT_EQ(ends.send({(ends.now + 15_ms).ns, {2.0, Gear::kDrive}}), E2eWorth::kHeld);
+    EXPECT_EQ(ends.read(), E2eWorth::kNew);
+    EXPECT_EQ(ends.value.value.rad_s, 2.0);
+}
+
+TEST(E2eLateReaderTest, ChannelOfALateReaderStaysValid) {
+    verifies("SWR-E2E-042", Technique::kFaultInjection);
+    // No error is tolerated, and one good reading of two is enough.
+    static constexpr E2eInLimits<PlainSequence> kNoError{25_ms, {1U}, 2U, {{1U, 0U}, {1U, 0U}, {1U, 0U}}};
+    Ends<StampedMessage, kNoError> ends{};
+    static_cast<void>(ends.send({ends.now.ns, {1.0, Gear::kDrive}}));
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_EQ(ends.send({ends.now.ns, {1.0, Gear::kDrive}}), E2eWorth::kNew);
+        ASSERT_EQ(ends.send({(ends.now + 11_ms).ns, {2.0, Gear::kDrive}}), E2eWorth::kHeld);
+        ASSERT_EQ(ends.sut.get_state(), ChannelState::kValid);
+    }
+}
+
+TEST(E2eLateReaderTest, MessageThatIsStillEarlyInTheNextReadingIsAnError) {
+    verifies("SWR-E2E-042", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const std::int64_t beyond_ns : {0, 1}) {
+        static constexpr E2eInLimits<PlainSequence> kNoError{
+            100_ms, {1U}, 4U, {{1U, 0U}, {1U, 0U}, {1U, 0U}}};
+        Ends<StampedMessage, kNoError> ends{};
+        static_cast<void>(ends.send({ends.now.ns, {1.0, Gear::kDrive}}));
+        ASSERT_EQ(ends.send({ends.now.ns, {1.0, Gear::kDrive}}), E2eWorth::kNew);
+
+        ASSERT_EQ(ends.send({(ends.now + 20_ms).ns + beyond_ns, {2.0, Gear::kDrive}}), E2eWorth::kHeld);
+        EXPECT_EQ(ends.read(), beyond_ns == 0 ? E2eWorth::kNew : E2eWorth::kSubstitute);
+        EXPECT_EQ(ends.sut.get_state(), beyond_ns == 0 ? ChannelState::kValid : ChannelState::kInvalid);
+    }
+}
+
+TEST(E2eLateReaderTest, SecondEarlyMessageInARowIsAnErrorAndEndsTheHeldValue) {
+    verifies("SWR-E2E-042", Technique::kFaultInjection, Polarity::kViolation);
+    StampedEnds ends{};
+    static_cast<void>(ends.send({ends.now.ns, {1.0, Gear::kDrive}}));
+    ASSERT_EQ(ends.send({ends.now.ns, {1.0, Gear::kDrive}}), E2eWorth::kNew);
+
+    ASSERT_EQ(ends.send({(ends.now + 11_ms).ns, {2.0, Gear::kDrive}}), E2eWorth::kHeld);
+    EXPECT_EQ(ends.send({(ends.now + 11_ms).ns, {3.0, Gear::kDrive}}), E2eWorth::kSubstitute);
+    EXPECT_EQ(ends.sut.get_outcome(), E2eOutcome::kEarly);
+    EXPECT_EQ(ends.read(), E2eWorth::kSubstitute) << "the rejected message stays rejected";
+}
+
+TEST(E2eLateReaderTest, LaterMessageReplacesTheOneThatWaits) {
+    verifies("SWR-E2E-042", Technique::kStateTransition);
+    StampedEnds ends{};
+    static_cast<void>(ends.send({ends.now.ns, {1.0, Gear::kDrive}}));
+    ASSERT_EQ(ends.send({ends.now.ns, {1.0, Gear::kDrive}}), E2eWorth::kNew);
+    ASSERT_EQ(ends.send({(ends.now + 11_ms).ns, {2.0, Gear::kDrive}}), E2eWorth::kHeld);
+
+    EXPECT_EQ(ends.send({ends.now.ns, {3.0, Gear::kDrive}}), E2eWorth::kNew);
+    EXPECT_EQ(ends.value.value.rad_s, 3.0);
+    EXPECT_EQ(ends.read(), E2eWorth::kHeld);
+    EXPECT_EQ(ends.value.value.rad_s, 3.0);
+}
+
+TEST(E2eLateReaderTest, RejectedMessageOrARestartEndsTheWait) {
+    verifies("SWR-E2E-042", Technique::kFaultInjection, Polarity::kViolation);
+    for (const bool is_restarted : {false, true}) {
+        StampedEnds ends{};
+        static_cast<void>(ends.send({ends.now.ns, {1.0, Gear::kDrive}}));
+        ASSERT_EQ(ends.send({(ends.now + 10_ms).ns, {1.0, Gear::kDrive}}), E2eWorth::kNew);
+        ASSERT_EQ(ends.send({(ends.now + 11_ms).ns, {2.0, Gear::kDrive}}), E2eWorth::kHeld);
+
+        if (is_restarted) {
+            ends.in.restart(ends.now, ends.revision);
+            EXPECT_EQ(ends.read(), E2eWorth::kSubstitute);
+        } else {
+            EXPECT_EQ(ends.receive(ends.out.get_published()), E2eWorth::kHeld) << "a repetition";
+            EXPECT_EQ(ends.value.value.rad_s, 1.0);
+        }
+        EXPECT_NE(ends.read(), E2eWorth::kNew);
+        EXPECT_EQ(ends.sut.get_count(E2eOutcome::kAccepted), 1U);
+    }
+}
+
+TEST(E2eLateReaderTest, ResetEndsTheWait) {
+    verifies("SWR-E2E-042", Technique::kStateTransition, Polarity::kViolation);
+    StampedEnds ends{};
+    static_cast<void>(ends.send({ends.now.ns, {1.0, Gear::kDrive}}));
+    ASSERT_EQ(ends.send({ends.now.ns, {1.0, Gear::kDrive}}), E2eWorth::kNew);
+    ASSERT_EQ(ends.send({(ends.now + 11_ms).ns, {2.0, Gear::kDrive}}), E2eWorth::kHeld);
+
+    ends.sut.restart();
+    EXPECT_EQ(ends.read(), E2eWorth::kSubstitute);
+    EXPECT_EQ(ends.sut.get_outcome(), E2eOutcome::kSilent);
 }
 
 /// As kYoung, with a sender whose clock may be 2 ms ahead.
@@ -178,7 +293,8 @@ TEST(E2eAgeTest, StampAheadOfNowIsAcceptedUpToTheTolerance) {
     Ends<StampedMessage, kTolerant> ends{};
     static_cast<void>(ends.send({ends.now.ns, {1.0, Gear::kDrive}}));
     ASSERT_EQ(ends.send({(ends.now + 12_ms).ns, {1.0, Gear::kDrive}}), E2eWorth::kNew);
-    EXPECT_EQ(ends.send({(ends.now + 12_ms).ns + 1, {2.0, Gear::kDrive}}), E2eWorth::kSubstitute);
+    EXPECT_EQ(ends.send({(ends.now + 12_ms).ns + 1, {2.0, Gear::kDrive}}), E2eWorth::kHeld);
+    EXPECT_EQ(ends.value.value.rad_s, 1.0) << "the value of before";
     EXPECT_EQ(ends.sut.get_outcome(), E2eOutcome::kEarly);
 
     EXPECT_EQ(judge_age(kLast, kFirst, 1_ns, {kLast.ns}), E2eOutcome::kEarly);

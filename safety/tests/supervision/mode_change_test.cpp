@@ -127,6 +127,142 @@ TEST_F(ModeChangeTest, ReportsOfTheTimeBeforeDoNotCountForEachAlive) {
     }
 }
 
+TEST_F(ModeChangeTest, EntityThatReportsInNoModeExpiresHoweverOftenTheModeChanges) {
+    verifies("SWR-SUP-042", Technique::kStateTransition, Polarity::kViolation);
+    for (const Entity entity : kSwitched) {
+        // One cycle at a time, and a reference cycle has two. Two silent cycles may be right.
+        for (int cycle = 1; cycle <= 4; ++cycle) {
+            run_all_but(entity);
+            step();
+            EXPECT_EQ(get_violation(entity), cycle < 4 ? Violation::kNone : Violation::kAlive) << cycle;
+            EXPECT_EQ(get_status(entity), cycle < 3    ? EntityStatus::kOk
+                                          : cycle == 3 ? EntityStatus::kFailed
+                                                       : EntityStatus::kExpired);
+            set_mode(kIdle);
+            set_mode(kWork);
+        }
+    }
+}
+
+TEST_F(ModeChangeTest, ReportAfterTheModeChangeEndsTheSilence) {
+    verifies("SWR-SUP-042", Technique::kStateTransition);
+    for (int change = 0; change < 20; ++change) {
+        if (change % 2 == 1) {
+            run_all_but(Entity::kRight);
+        }
+        begin(Entity::kRight);
+        finish(Entity::kRight);
+        if (change % 2 == 1) {
+            step();
+        } else {
+            step();
+            set_mode(kIdle);
+            set_mode(kWork);
+        }
+        ASSERT_EQ(get_status(Entity::kLeft), EntityStatus::kOk) << change;
+    }
+}
+
+TEST_F(ModeChangeTest, ReportJustBeforeTheModeChangeEndsTheSilence) {
+    verifies("SWR-SUP-042", Technique::kBoundaryValues);
+    for (int change = 0; change < 20; ++change) {
+        step();
+        begin(Entity::kLeft);
+        finish(Entity::kLeft);
+        now_ += 20;
+        set_mode(kIdle);
+        set_mode(kWork);
+        ASSERT_NE(get_violation(Entity::kLeft), Violation::kAlive) << change;
+    }
+    EXPECT_EQ(get_status(Entity::kLeft), EntityStatus::kOk);
+}
+
+TEST_F(ModeChangeTest, BurstJustBeforeTheModeChangeIsWrongForEachAlive) {
+    verifies("SWR-SUP-042", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const Entity entity : kSwitched) {
+        for (const int reports : {1, 2}) {
+            for (int i = 0; i < reports; ++i) {
+                begin(entity);
+                finish(entity);
+                now_ += 20;
+            }
+            set_mode(kIdle);
+            set_mode(kWork);
+            EXPECT_EQ(get_status(entity), reports == 1 ? EntityStatus::kOk : EntityStatus::kFailed);
+        }
+    }
+}
+
+TEST_F(ModeChangeTest, WrongReferenceCycleIsCountedOnceWhenItEndsWithTheMode) {
+    verifies("SWR-SUP-042", Technique::kBoundaryValues);
+    for (int i = 0; i < 2; ++i) {
+        begin(Entity::kLeft);
+        finish(Entity::kLeft);
+        now_ += 20;
+    }
+    step();
+    ASSERT_EQ(get_status(Entity::kLeft), EntityStatus::kFailed);
+    set_mode(kIdle);
+    set_mode(kWork);
+
+    EXPECT_EQ(get_status(Entity::kLeft), EntityStatus::kFailed) << "one wrong one is tolerated";
+    EXPECT_EQ(get_violation(Entity::kLeft), Violation::kNone);
+}
+
+// Five reports in ten cycles, at most two silent ones in a row.
+constexpr std::array kRareEntities{supervise(Only::kEntity, in_modes(kWork), 1U),
+                                   supervise(Entity::kMiddle, kEveryMode)};
+constexpr std::array kRareCheckpoints{checkpoint(Point::kLeft, Only::kEntity),
+                                      checkpoint(Point::kLeftDone, Entity::kMiddle)};
+constexpr std::array kRareAlives{alive(Point::kLeft, {6U, 1U, 4U, 10U}),
+                                 alive(Point::kLeftDone, {1U, 0U, 29U, 1U})};
+constexpr SupervisionTable kRareTable{kRareEntities, kRareCheckpoints, kRareAlives, {}, {}, 2U, 100U};
+
+TEST(PartOfAReferenceCycleTest, IsJudgedInProportionWhenTheModeEndsIt) {
+    verifies("SWR-SUP-042", Technique::kBoundaryValues, Polarity::kViolation);
+    // Nine of ten cycles: 4.5 reports, so four are enough.
+    for (const int reports : {4, 3}) {
+        SupervisionRig<kRareTable> rig;
+        ASSERT_EQ(rig.sut.set_mode(kWork, Instant{0}), Status::kOk);
+        for (int cycle = 1; cycle <= 9; ++cycle) {
+            rig.report_as(Entity::kMiddle, Point::kLeftDone, cycle * 100);
+            if (cycle % 3 == 0 || (reports == 4 && cycle == 1)) {
+                rig.report(Point::kLeft, cycle * 100);
+            }
+            ASSERT_EQ(rig.step(cycle * 100), SupervisionStatus::kOk) << cycle;
+        }
+        ASSERT_EQ(rig.sut.set_mode(kIdle, Instant{950}), Status::kOk);
+        ASSERT_EQ(rig.sut.set_mode(kWork, Instant{950}), Status::kOk);
+        EXPECT_EQ(rig.get_status(), reports == 4 ? EntityStatus::kOk : EntityStatus::kFailed);
+    }
+}
+
+TEST(PartOfAReferenceCycleTest, ThatWasRightHealsNothing) {
+    verifies("SWR-SUP-042", Technique::kStateTransition, Polarity::kViolation);
+    SupervisionRig<kRareTable> rig;
+    ASSERT_EQ(rig.sut.set_mode(kWork, Instant{0}), Status::kOk);
+    std::int64_t now = 0;
+    const auto step = [&](bool is_reporting) {
+        now += 100;
+        rig.report_as(Entity::kMiddle, Point::kLeftDone, now);
+        if (is_reporting) {
+            rig.report(Point::kLeft, now);
+        }
+        static_cast<void>(rig.step(now));
+    };
+    for (int cycle = 0; cycle < 10; ++cycle) {
+        step(cycle % 3 == 0 && cycle < 9);
+    }
+    ASSERT_EQ(rig.get_status(), EntityStatus::kFailed);
+    for (int change = 0; change < 5; ++change) {
+        step(true);
+        ASSERT_EQ(rig.sut.set_mode(kIdle, Instant{now}), Status::kOk);
+        ASSERT_EQ(rig.sut.set_mode(kWork, Instant{now}), Status::kOk);
+    }
+
+    EXPECT_EQ(rig.get_status(), EntityStatus::kFailed);
+}
+
 TEST_F(ModeChangeTest, AcknowledgementForgetsTheWrongReferenceCyclesOfEachAlive) {
     verifies("SWR-SUP-027", Technique::kStateTransition);
     for (const Entity entity : kSwitched) {

@@ -13,6 +13,8 @@
 #include "mamori/ports/posix_rt/watchdog_device.hpp"
 #include "mamori/ports/virtual_time/virtual_host.hpp"
 #include "mamori/safety/e2e/e2e.hpp"
+#include "mamori/safety/notice/node_monitor.hpp"
+#include "mamori/safety/notice/survival_notifier.hpp"
 #include "mamori/table_dump/table_dump.hpp"
 #include "mamori/timing/cost_run.hpp"
 
@@ -127,6 +129,27 @@ constexpr mamori::safety::ChannelUse kUse{1000.0, 1e-4};
 static_assert(mamori::safety::is_within_budget<Profile, kChannel, kUse>());
 
 }  // namespace e2e
+
+namespace survival_notice {
+
+using namespace mamori::literals;
+
+// Shared by both programs: data id, major frame, a notice in each tenth frame, components in table order.
+constexpr mamori::safety::NoticeNode kArm{0xA4A1U, 1_ms, 10U, std::array{"reader", "guard", "supervisor", "notifier"}};
+
+// Node "arm": runs after the supervisor, in its window; supervision has the storage of the table.
+extern mamori::safety::ExecutionSupervisor supervision;
+mamori::safety::SurvivalNotifier<kArm> notifier{"notifier", supervision};
+
+// Other node: tolerance, late after two periods, silent after three, ten periods to the first notice.
+constexpr mamori::safety::NoticeLimits kLimits{5_ms, 2U, 3U, 10U};
+mamori::safety::NodeMonitor<kArm, kLimits> arm_monitor{"arm"};
+
+bool is_arm_safe() {
+    return arm_monitor.get_status().is_proven;  // else status.first and status.component name the cause
+}
+
+}  // namespace survival_notice
 
 namespace cost {
 

@@ -67,22 +67,35 @@ def bend(where: Where, answers: Mapping[str, int], leads_to: Kind | None = None)
     return seed
 
 
-def confirm(level: int, is_fitted: Sequence[bool], standing: Sequence[int], contacts: Sequence[int]) -> Callable[[Brakes], Brakes]:
-    """A sequence whose confirmation of an SS1 is `level` for these inputs, at any time."""
-
-    def seed(brakes: Brakes) -> Brakes:
-        confirmed = brakes.confirmed.copy()
-        numbers = [number for number, fitted in enumerate(brakes.fitted) if fitted in is_fitted]
-        confirmed[np.ix_(numbers, [brakes.states.index(SS1)], standing, contacts)] = level
-        return replace(brakes, confirmed=confirmed)
-
-    return seed
+def confirm_nothing(brakes: Brakes) -> Brakes:
+    confirmed = brakes.confirmed.copy()
+    confirmed[:, brakes.states.index(SS1)] = 0
+    return replace(brakes, confirmed=confirmed)
 
 
 def notice_nothing_late(brakes: Brakes) -> Brakes:
     overdue = brakes.cycle["overdue"].copy()
     overdue[..., BEYOND] = 0
     return replace(brakes, cycle={**brakes.cycle, "overdue": overdue})
+
+
+def list_open(brakes: Brakes) -> set[int]:
+    """The situations that a cycle with open brakes can precede: a confirmation of an SS1 there is in the cycle of the command."""
+    return {number for number, memory in brakes.roads if not memory.closed}
+
+
+def trust_stuck_contacts(brakes: Brakes) -> Brakes:
+    confirmed = brakes.confirmed.copy()
+    numbers = sorted(number for number in list_open(brakes) if brakes.fitted[number])
+    confirmed[np.ix_(numbers, [brakes.states.index(SS1)], [1], [1])] = 1
+    return replace(brakes, confirmed=confirmed)
+
+
+def ignore_contacts(brakes: Brakes) -> Brakes:
+    confirmed = brakes.confirmed.copy()
+    numbers = [number for number, fitted in enumerate(brakes.fitted) if fitted and number not in list_open(brakes)]
+    confirmed[np.ix_(numbers, [brakes.states.index(SS1)], [1], [0])] = 1
+    return replace(brakes, confirmed=confirmed)
 
 
 BRAKE_DEFECTS: tuple[Defect[Brakes], ...] = (
@@ -92,8 +105,9 @@ BRAKE_DEFECTS: tuple[Defect[Brakes], ...] = (
                 bend(Where((OPEN, HELD), SS1), {"open": 0, "told_now": 1}, TOLD)),
     Defect("ss1-holds-while-its-brakes-close", "An SS1 takes torque away once its brakes were told to close.",
                 bend(Where((TOLD,), SS1), {"torque": 0})),
-    Defect("ss1-confirmed-by-its-brakes", "Standstill alone confirms an SS1, whatever the contacts say.",
-                confirm(1, (True,), standing=(1,), contacts=(0,))),
+    Defect("ss1-confirmed-by-its-brakes", "Standstill alone confirms an SS1 after the command, with any report of the contacts.", ignore_contacts),
+    Defect("contacts-confirm-after-the-command-only", "A contact stuck at closed confirms an SS1 in the cycle of the command.",
+                trust_stuck_contacts),
     Defect("torque-outlives-the-hold-only", "A standby gets torque also after a self test.",
                 bend(Where((TOLD,), "Standby", before="SelfTest", times=(WITHIN,)), {"torque": 1}, HANDING_OVER)),
     Defect("torque-outlives-the-hold-within-the-closing-time", "Torque outlives the hold up to and including the closing time.",
@@ -105,5 +119,5 @@ BRAKE_DEFECTS: tuple[Defect[Brakes], ...] = (
     Defect("brakes-open-by-a-start-only", "The brakes of an SS1 open again when the machine is pushed.",
                 bend(Where((TOLD,), SS1, before=SS1, standing=(0,)), {"open": 1, "told_now": 0, "overdue": 0}, OPEN)),
     Defect("silent-brakes-are-overdue", "Only a clock that runs backwards makes brakes overdue.", notice_nothing_late),
-    Defect("brakes-end-stops", "No SS1 is ever confirmed.", confirm(0, (True, False), standing=(0, 1), contacts=(0, 1))),
+    Defect("brakes-end-stops", "No SS1 is ever confirmed.", confirm_nothing),
 )  # fmt: skip

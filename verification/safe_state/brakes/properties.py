@@ -52,6 +52,11 @@ BRAKE_PROPERTIES: tuple[Property, ...] = (
         is_coupled=True,
     ),
     Property(
+        "contacts-confirm-after-the-command-only", "SWR-FSM-036",
+        "No SS1 is confirmed in the cycle in which its brakes are told to close, with any report of the contacts.",
+        step="(=> (and (= q ProtectiveStopSs1) confirmed) was_closed)",
+    ),
+    Property(
         "torque-outlives-the-hold-only", "SWR-FSM-028",
         "In a state without torque of its own that is neither safe nor locked out, torque is on only in a standby that a hold, or"
         " torque in standby, preceded.",

@@ -119,7 +119,7 @@ FAULTS = {
     "has 5 cells, wanted 6": lambda document: drop(document, "situations", 5, "apply", 17, 0),
     "has 3 answers for 4 times": lambda document: drop(document, "situations", 5, "overdue", 0),
     "the properties speak about": lambda document: drop(document, "times", 2),
-    "is 68, beyond the 68 rows it points into": lambda document: set_cell(document, 68, "situations", 5, "apply", 0, 5),
+    "is 126, beyond the 126 rows it points into": lambda document: set_cell(document, 126, "situations", 5, "apply", 0, 5),
     "is 2, beyond the 2 rows": lambda document: set_cell(document, 2, "situations", 5, "confirm", 0, 0),
     "is 'mamori.brake_sequence/0'": lambda document: set_cell(document, "mamori.brake_sequence/0", "schema"),
 }

@@ -30,6 +30,8 @@ class LatestFrames final {
         taken_at_ = port_.get_published_at();
         return port_.read();
     }
+    /// The message that was taken last, until the input gets another. @pre take() since the last forget().
+    const typename Port::Payload& get_taken() const noexcept { return port_.read(); }
     /// Of the input: what came before the last one is of another mode or run.
     std::uint32_t get_restart_count() const noexcept { return port_.get_restart_count(); }
     /// After a restart: the next frame may have the instant of one of an earlier run.
@@ -55,6 +57,7 @@ class QueuedFrames final {
         static_cast<void>(port_.read(frame_));
         return frame_;
     }
+    const typename Port::Payload& get_taken() const noexcept { return frame_; }
     std::uint32_t get_restart_count() const noexcept { return port_.get_restart_count(); }
     void forget() noexcept {}
     Instant get_published_at() const noexcept { return port_.get_published_at(); }

@@ -4,7 +4,7 @@
 /// when its frame, its content, its age and the state of the channel allow it; else a substitute does.
 ///
 /// @satisfies SWR-E2E-031, SWR-E2E-032, SWR-E2E-033, SWR-E2E-034, SWR-E2E-035
-/// @satisfies SWR-E2E-037, SWR-E2E-039, SWR-E2E-041
+/// @satisfies SWR-E2E-037, SWR-E2E-039, SWR-E2E-041, SWR-E2E-042
 /// Design:   docs/design/e2e.md#ports
 #ifndef MAMORI_SAFETY_E2E_IN_PORT_HPP
 #define MAMORI_SAFETY_E2E_IN_PORT_HPP
@@ -90,8 +90,9 @@ class E2eInPort final {
             restart_count_ = source_.get_restart_count();
             source_.forget();
             has_value_ = false;  // whatever this reading brings: what is held is of another mode or run
+            forget_waiting();
         }
-        outcome_ = has_frame() ? judge_frame(now) : note_silence();
+        outcome_ = judge_reading(now);
         if (!machine_.is_valid()) {
             has_value_ = false;
         }
@@ -103,8 +104,7 @@ class E2eInPort final {
             value = value_;
             return E2eWorth::kNew;
         }
-        if (has_value_ &&
-            judge_age(origin_, now, kLimits.age_max, kLimits.lead_max) == E2eOutcome::kAccepted) {
+        if (has_value_ && judge(origin_, now) == E2eOutcome::kAccepted) {
             value = value_;
             return E2eWorth::kHeld;
         }
@@ -119,6 +119,7 @@ class E2eInPort final {
     void restart() noexcept {
         checker_.restart();
         machine_.restart();  // and the next reading drops the value
+        forget_waiting();
     }
 
     /// What became of the last reading; kSilent before the first.
@@ -132,32 +133,59 @@ class E2eInPort final {
     ChannelState get_state() const noexcept { return machine_.get_state(); }
 
   private:
-    E2eOutcome note_silence() noexcept {
-        note(checker_.check_silence());
-        return E2eOutcome::kSilent;
+    /// Only a stamp can be later than the planned start of a window of the same system.
+    static constexpr bool kMayWait = detail::kIsStamped<Value>;
+
+    bool has_waiting() const noexcept { return kMayWait && waiting_ != CheckStatus::kNoNewData; }
+    void forget_waiting() noexcept {
+        if constexpr (kMayWait) {
+            waiting_ = CheckStatus::kNoNewData;
+        }
     }
-    E2eOutcome judge_frame(Instant now) noexcept {
-        const Span<const std::byte> frame = detail::view_bytes(source_.take());
-        const CheckStatus status = checker_.check(frame);
-        if (!is_usable(status)) {
+    /// Checks the new message, or takes the one that waits, or records that none has come.
+    E2eOutcome judge_reading(Instant now) noexcept {
+        if (has_frame()) {
+            const Span<const std::byte> frame = detail::view_bytes(source_.take());
+            const CheckStatus status = checker_.check(frame);
+            if (is_usable(status)) {
+                return open(frame, status, now);
+            }
+            forget_waiting();
             note(status);
             return E2eOutcome::kRefused;
         }
-        const E2eOutcome outcome = open(frame, now);
+        if (has_waiting()) {
+            return open(detail::view_bytes(source_.get_taken()), waiting_, now);
+        }
+        note(checker_.check_silence());
+        return E2eOutcome::kSilent;
+    }
+    /// Takes the value out of a message that the check accepted. What was held before is older, and is
+    /// dropped with a message that is not for use. A reader that is released late may find a message that was
+    /// sent after the planned start of its window: it waits for the next reading, unless one waited before.
+    /// @return kAccepted, kMalformed, kEarly or kLate.
+    E2eOutcome open(Span<const std::byte> frame, CheckStatus status, Instant now) noexcept {
+        const Span<const std::byte> payload =
+            frame.subspan(Message::kPayloadAt, frame.size() - Message::kPayloadAt);
+        const Instant origin =
+            detail::read_origin<Value>(payload, Message::kByteOrder, source_.get_published_at());
+        if (kMayWait && !has_waiting() && judge(origin, now) == E2eOutcome::kEarly) {
+            waiting_ = status;
+            note(CheckStatus::kNoNewData);
+            return E2eOutcome::kEarly;
+        }
+        forget_waiting();
+        E2eOutcome outcome = E2eOutcome::kMalformed;
+        if (decode(payload, Message::kByteOrder, value_) == Status::kOk) {
+            origin_ = origin;
+            outcome = judge(origin, now);
+        }
         has_value_ = outcome == E2eOutcome::kAccepted;
         note(has_value_ ? status : CheckStatus::kError);
         return outcome;
     }
-    /// Takes the value out of a frame that was found good. What was held before is older, and goes with a
-    /// frame that is not for use. @return kAccepted, kMalformed, kEarly or kLate.
-    E2eOutcome open(Span<const std::byte> frame, Instant now) noexcept {
-        const Span<const std::byte> payload =
-            frame.subspan(Message::kPayloadAt, frame.size() - Message::kPayloadAt);
-        if (decode(payload, Message::kByteOrder, value_) != Status::kOk) {
-            return E2eOutcome::kMalformed;
-        }
-        origin_ = detail::get_origin(value_, source_.get_published_at());
-        return judge_age(origin_, now, kLimits.age_max, kLimits.lead_max);
+    static constexpr E2eOutcome judge(Instant origin, Instant now) noexcept {
+        return judge_age(origin, now, kLimits.age_max, kLimits.lead_max);
     }
     void note(CheckStatus status) noexcept {
         static_cast<void>(machine_.check(to_profile_status(status, kLimits.rule)));  // its demands are sound
@@ -173,6 +201,7 @@ class E2eInPort final {
     std::uint32_t restart_count_{0U};  ///< of the input, as the last reading found it
     E2eOutcomeCounts counts_{};
     E2eOutcome outcome_{E2eOutcome::kSilent};
+    CheckStatus waiting_{CheckStatus::kNoNewData};  ///< of the message that waits; kNoNewData: none waits
     bool has_value_{false};
 };
 

@@ -27,7 +27,8 @@ enum class E2eOutcome : std::uint8_t {
     kSilent,     ///< no frame
     kRefused,    ///< by the check of the frame, whose cause tells more
     kMalformed,  ///< a good frame whose content is no value of the type: the ends disagree on the message
-    kEarly,      ///< from an instant to come, beyond the tolerance: the ends disagree on the time
+    kEarly,      ///< from an instant to come, beyond the tolerance: the message waits for the next reading;
+                 ///< early again, or after one that waited, it is rejected: the ends disagree on the time
     kLate,       ///< older than the limit
     kUnproven,   ///< a good value, while the channel is not valid
 };

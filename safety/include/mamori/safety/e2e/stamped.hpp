@@ -8,9 +8,12 @@
 #ifndef MAMORI_SAFETY_E2E_STAMPED_HPP
 #define MAMORI_SAFETY_E2E_STAMPED_HPP
 
+#include <cstddef>
 #include <cstdint>
 
+#include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/payload/cdr.hpp"
 #include "mamori/kernel/payload/fields.hpp"
 
 namespace mamori::safety {
@@ -24,14 +27,21 @@ struct Stamped {
 
 namespace detail {
 
-/// Instant from which the age of a value counts. @param[in] published_at of the frame, by the port.
 template <typename T>
-constexpr Instant get_origin(const T& /*value*/, Instant published_at) noexcept {
+inline constexpr bool kIsStamped = false;
+template <typename T>
+inline constexpr bool kIsStamped<Stamped<T>> = true;
+
+/// Instant from which the age of a value counts.
+/// @param[in] payload      encoding of a T: a stamp is its first field.
+/// @param[in] published_at of the message, by the port.
+template <typename T>
+constexpr Instant read_origin(Span<const std::byte> payload, ByteOrder order, Instant published_at) noexcept {
+    if constexpr (kIsStamped<T>) {
+        // Every pattern of eight bytes is an integer.
+        static_cast<void>(decode(payload.subspan(0U, sizeof(std::int64_t)), order, published_at.ns));
+    }
     return published_at;
-}
-template <typename T>
-constexpr Instant get_origin(const Stamped<T>& value, Instant /*published_at*/) noexcept {
-    return {value.sent_at_ns};
 }
 
 }  // namespace detail

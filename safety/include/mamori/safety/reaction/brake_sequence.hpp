@@ -4,6 +4,7 @@
 /// where torque is to go at once, it goes, and the brakes close as fast as they can.
 ///
 /// @satisfies SWR-FSM-026, SWR-FSM-027, SWR-FSM-028, SWR-FSM-029, SWR-FSM-034, SWR-FSM-035
+/// @satisfies SWR-FSM-036
 /// Design:   docs/design/safe_state.md#brakes-with-delay
 /// Source:   IEC 61800-5-2 (SBC, SS1, STO)
 #ifndef MAMORI_SAFETY_BRAKE_SEQUENCE_HPP
@@ -44,7 +45,9 @@ class BrakeSequence final {
     /// bitten, in each other state it must stand.
     /// @param[in] state       of the machine, before its step.
     /// @param[in] is_standing as measured.
-    /// @param[in] are_closed  contacts of all brakes; without meaning when there are none.
+    /// @param[in] are_closed  contacts of all brakes; without meaning when there are none. Contacts that have
+    ///                        reported closed since before the command may be stuck: then the closing time
+    ///                        must also have elapsed.
     /// @param[in] now         of this cycle. Before the command to close, nothing has bitten.
     [[nodiscard]] bool confirm(SafeState state, bool is_standing, bool are_closed, Instant now) noexcept;
 
@@ -71,6 +74,7 @@ class BrakeSequence final {
     SafeState before_{SafeState::kSelfTest};
     bool is_told_{false};
     bool are_closed_{false};
+    bool have_reported_open_{false};  ///< the contacts, in the cycle of the command or after it
     bool is_handing_over_{false};
 };
 

@@ -4,6 +4,7 @@
 /// acknowledgement once it has been gone for long enough, never by healing.
 ///
 /// @satisfies SWR-FLT-001, SWR-FLT-002, SWR-FLT-003, SWR-FLT-007, SWR-FLT-008, SWR-FLT-009
+/// @satisfies SWR-FLT-012
 /// Design:   docs/design/supervision.md#fault-register
 #ifndef MAMORI_SAFETY_FAULT_REGISTER_HPP
 #define MAMORI_SAFETY_FAULT_REGISTER_HPP
@@ -14,14 +15,9 @@
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/status.hpp"
 #include "mamori/kernel/base/time.hpp"
+#include "mamori/safety/reaction/reaction.hpp"
 
 namespace mamori::safety {
-
-/// Number of a fault, 0 .. count - 1 of the application's enumeration.
-using FaultIndex = std::uint16_t;
-
-/// "No fault".
-inline constexpr FaultIndex kNoFault = 0xFFFFU;
 
 /// When a fault that is reported as present is believed: at the first of the two that is reached. A fault
 /// needs one of them.
@@ -63,6 +59,7 @@ struct FaultRecord {
     Instant judged_at{};              ///< last report
     Instant seen_at{};                ///< first cycle of what was latched
     Instant latched_at{};             ///< when it was confirmed
+    ReactionDemand demand{};          ///< worst one since it was latched; none while not latched
     bool is_present{false};
     bool is_confirmed{false};  ///< in this presence, so that one presence is one occurrence
     bool is_latched{false};
@@ -105,6 +102,11 @@ class FaultRegister final {
     /// Clears every latched fault that has healed.
     /// @return kOk (no fault is latched now); kPreconditionNotMet (some have not healed and stay latched).
     Status acknowledge_all() noexcept;
+
+    /// Keeps a demand of a latched fault until it is acknowledged, unless it already has a worse one.
+    /// @param[in] demand of a fault of this register; ignored unless that fault is latched.
+    /// @return the worst demand of that fault since it was latched.
+    const ReactionDemand& raise(const ReactionDemand& demand) noexcept;
 
     bool is_present(FaultIndex fault) const noexcept { return records_[fault].is_present; }
     bool is_latched(FaultIndex fault) const noexcept { return records_[fault].is_latched; }

@@ -3,7 +3,7 @@
 /// The table from fault and mode to reaction. A declared fault without a reaction in one of the modes does
 /// not compile, and the worst of all latched faults decides.
 ///
-/// @satisfies SWR-FLT-004, SWR-FLT-005, SWR-FLT-006, SWR-FLT-010, SWR-FLT-011
+/// @satisfies SWR-FLT-004, SWR-FLT-005, SWR-FLT-006, SWR-FLT-010, SWR-FLT-011, SWR-FLT-012
 /// Design: docs/design/supervision.md#reactions
 #ifndef MAMORI_SAFETY_REACTION_TABLE_HPP
 #define MAMORI_SAFETY_REACTION_TABLE_HPP
@@ -18,34 +18,9 @@
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/table/mode_mask.hpp"
 #include "mamori/safety/reaction/fault_register.hpp"
+#include "mamori/safety/reaction/reaction.hpp"
 
 namespace mamori::safety {
-
-/// What a fault leads to; ordered, the severest is the largest. Stops are named as in IEC 61800-5-2.
-enum class Reaction : std::uint8_t {
-    kNone,     ///< recorded only
-    kDegrade,  ///< go on with reduced limits
-    kSs2,      ///< controlled stop, then hold the position under torque (stop category 2)
-    kSs1,      ///< controlled stop, then torque off and brakes closed (stop category 1)
-    kSto,      ///< torque off and brakes closed at once (stop category 0)
-};
-
-/// Spelling for logs and reports; "Invalid" for a corrupted value, never nullptr.
-constexpr const char* get_name(Reaction reaction) noexcept {
-    switch (reaction) {
-        case Reaction::kNone:
-            return "None";
-        case Reaction::kDegrade:
-            return "Degrade";
-        case Reaction::kSs2:
-            return "Ss2";
-        case Reaction::kSs1:
-            return "Ss1";
-        case Reaction::kSto:
-            return "Sto";
-    }
-    return "Invalid";
-}
 
 /// One row: the fault, its reaction, the time from the confirmed fault to the start of the reaction, and the
 /// modes of the system in which it is the answer.
@@ -80,19 +55,15 @@ constexpr ModeMask to_modes(Mode... modes) noexcept {
     return (ModeMask{0U} | ... | to_mask(static_cast<std::size_t>(modes)));
 }
 
-/// What is demanded of the state machine.
-struct ReactionDemand {
-    Reaction reaction{Reaction::kNone};
-    FaultIndex fault{kNoFault};  ///< the fault that asks for it; kNoFault when none is latched
-    Duration within{0};
-};
-
-/// @param[in] mode in which the system is; 0 for one without modes.
-/// @return the severest reaction over all latched faults, among equals the shortest time, then the lowest
-///         fault number; Reaction::kSto at once for a latched fault that has no row for the mode, and for
-///         every latched fault in a mode that cannot be, from kSystemModeMax on.
+/// Finds the demand of all latched faults. Call it in each cycle: the register keeps the worst demand of each
+/// latched fault until it is acknowledged, so no mode switch lowers it.
+/// @param[in,out] faults keep their demands.
+/// @param[in]     mode   in which the system is; 0 for one without modes.
+/// @return the severest reaction over all latched faults and the modes since each was latched, among equals
+///         the shortest time, then the lowest fault number; Reaction::kSto at once for a latched fault that
+///         has no row for the mode, and for every latched fault in an invalid mode, from kSystemModeMax on.
 /// Time: O(faults * rows).
-ReactionDemand calc_reaction(Span<const ReactionRow> table, const FaultRegister& faults,
+ReactionDemand calc_reaction(Span<const ReactionRow> table, FaultRegister& faults,
                              std::size_t mode = 0U) noexcept;
 
 /// True when `row` is the answer to `fault` in `mode`.

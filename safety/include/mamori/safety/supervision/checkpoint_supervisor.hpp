@@ -5,6 +5,7 @@
 ///
 /// @satisfies SWR-SUP-020, SWR-SUP-021, SWR-SUP-022, SWR-SUP-023, SWR-SUP-024, SWR-SUP-025, SWR-SUP-026
 /// @satisfies SWR-SUP-027, SWR-SUP-028, SWR-SUP-029, SWR-SUP-030, SWR-SUP-031, SWR-SUP-036, SWR-SUP-039
+/// @satisfies SWR-SUP-042
 /// Design:   docs/design/supervision.md#checkpoint-supervision
 /// Source:   AUTOSAR Watchdog Manager, with the departures that the design note lists;
 ///           IEC 61508-2:2010 Table A.10 (combined temporal and logical monitoring of program sequence)
@@ -54,9 +55,10 @@ class CheckpointSupervisor final {
     /// The same where no watchdog asks for an answer.
     [[nodiscard]] SupervisionStatus step(Instant now) noexcept;
 
-    /// Goes to another mode. What was reported up to `now`, and what is overdue then, is judged first, by the
-    /// old mode; wrong reference cycles stay counted while their entity is not active. An expired entity
-    /// stays expired. An entity that becomes active begins anew, with an initial checkpoint.
+    /// Switches to another mode. First evaluates the reports up to `now`, the elapsed deadlines and, in
+    /// proportion, the reference cycles that the switch ends, by the old mode. An inactive entity keeps its
+    /// silent cycles and wrong reference cycles. An expired entity stays expired. An entity that becomes
+    /// active starts with an initial checkpoint and a complete reference cycle.
     /// @return kOk; kBadParameter (no such mode).
     Status set_mode(std::size_t mode, Instant now) noexcept;
 
@@ -87,6 +89,8 @@ class CheckpointSupervisor final {
     void judge_deadlines_at(EntityIndex entity, const CheckpointEvent& event) noexcept;
     void count_report(CheckpointIndex checkpoint) noexcept;
     void judge_early_report(EntityIndex entity) noexcept;
+    void record_wrong_cycle(std::size_t row) noexcept;
+    void end_alive_early(std::size_t row) noexcept;
     bool end_alive_cycle(std::size_t row) noexcept;
     bool judge_running(std::size_t row, Instant now) noexcept;
     void form_status(EntityIndex entity, Instant now) noexcept;
@@ -94,6 +98,9 @@ class CheckpointSupervisor final {
     void rest(EntityIndex entity) noexcept;
     bool is_judged(EntityIndex entity) const noexcept {
         return entities_[entity].is_active && entities_[entity].violation == CheckpointViolation::kNone;
+    }
+    bool is_wanted(EntityIndex entity, std::size_t mode) const noexcept {
+        return (table_.entities[entity].modes & to_mask(mode)) != 0U;
     }
     EntityIndex get_owner(CheckpointIndex checkpoint) const noexcept {
         return table_.checkpoints[checkpoint].entity;

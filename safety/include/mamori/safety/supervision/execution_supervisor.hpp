@@ -141,6 +141,9 @@ class ExecutionSupervisor final : public ExecutionObserver {
         return find_component(table_components_, &component);
     }
 
+    /// Components of the table, in table order; none if the storage is not of a table.
+    Span<Component* const> get_components() const noexcept { return table_components_; }
+
     /// Starts supervising a component, active. A component that is not watched may be silent and slow, but
     /// a budget overrun expires it all the same, with global scope.
     /// @return kOk; kBadParameter (component or limits out of range); kPreconditionNotMet (already watched).
