@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations of a context whose actions an ActionCaller calls. Alone in its file: a program without a guard
-// does not link it.
+/// @file
+/// Operations of a context whose actions an ActionCaller calls. Alone in its file: a program without a guard
+/// does not link it.
+///
+/// @satisfies SWR-KRN-090, SWR-KRN-093      Design: docs/design/kernel.md#actions-outside-windows
 #include "context_start.hpp"
 
 namespace mamori {

@@ -3,7 +3,7 @@
 /// Part of a machine in real time that does not depend on its table. Users construct a Machine.
 ///
 /// @satisfies SWR-PRT-070, SWR-PRT-071, SWR-PRT-072, SWR-PRT-073, SWR-PRT-074, SWR-PRT-085
-///     Design: docs/design/posix_rt.md#machine
+/// @satisfies SWR-PRT-086      Design: docs/design/posix_rt.md#machine
 #ifndef MAMORI_PORTS_POSIX_RT_MACHINE_RUN_HPP
 #define MAMORI_PORTS_POSIX_RT_MACHINE_RUN_HPP
 
