@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Options of a window: its budget, period, core, partition and trigger. Each option is defined next to the
-/// function that writes it to the row.
+/// Options of a window: its budget, period, core, class, partition and trigger. Each option is defined next
+/// to the function that writes it to the row.
 ///
-/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-017, SWR-KRN-080      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_OPTION_HPP
 #define MAMORI_KERNEL_WINDOW_OPTION_HPP
 
@@ -43,6 +43,15 @@ struct Core {
 /// @param[in] index 0, 1, ...; in a system with modes or configuration sets below kModeCoreMax.
 constexpr Core core(std::size_t index) noexcept {
     return {index};
+}
+
+/// Made by background().
+struct Background {};
+/// The window may overlap ordinary windows of its core, which preempt it; background windows of one core are
+/// disjoint. Its budget(...) is processor time, and its window end is its deadline. Values pass between both
+/// classes through a Crossing or a queue, as between cores.
+constexpr Background background() noexcept {
+    return {};
 }
 
 /// Made by partition().
@@ -85,6 +94,10 @@ constexpr void apply(WindowRow& row, Every option) noexcept {
 }
 constexpr void apply(WindowRow& row, Core option) noexcept {
     row.core = option.index;
+}
+/// system() completes the row.
+constexpr void apply(WindowRow& row, Background) noexcept {
+    row.background_of = 0U;
 }
 constexpr void apply(WindowRow& row, Partition option) noexcept {
     row.partition = option.name;

@@ -2,7 +2,7 @@
 /// @file
 /// Rows of a system table for the schedule: windows and their components.
 ///
-/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-017, SWR-KRN-080      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_ROW_HPP
 #define MAMORI_KERNEL_WINDOW_ROW_HPP
 
@@ -27,14 +27,19 @@ struct WindowRow {
     Duration length{};          ///< from window start to window end, > 0; offset + length <= period
     Duration period{};          ///< between two window starts, > 0; divides the major frame
     Duration budget{};          ///< from the actual start, > 0; ends at the latest at the planned end
-    double rate_hz{0.0};        ///< declared cycles per second [Hz]; valid only if `has_rate`
+    /// Processor time of a background window, > 0; its `budget` is its `length`. 0: an ordinary window.
+    Duration execution_budget{};
+    double rate_hz{0.0};  ///< declared cycles per second [Hz]; valid only if `has_rate`
     /// Periods of slower rates, each an integer multiple of `period`; the first `alternative_count` are
     /// valid.
     std::array<Duration, kAlternativeRateMax> alternative_periods{};
     std::size_t alternative_count{0U};
-    std::size_t core{0U};             ///< processor core that runs it: 0, 1, ...
-    const char* partition{""};        ///< name; equal names denote the same partition
-    std::size_t first_component{0U};  ///< its components, consecutive indices of the table
+    /// Number of the executive that runs it. Ordinary windows: the processor core 0, 1, ...; background
+    /// windows of a core have a number of their own after all cores.
+    std::size_t core{0U};
+    std::size_t background_of{kNoIndex};  ///< core of a background window; kNoIndex: an ordinary window
+    const char* partition{""};            ///< name; equal names denote the same partition
+    std::size_t first_component{0U};      ///< its components, consecutive indices of the table
     std::size_t component_count{0U};
     std::size_t first_port{0U};  ///< ports of its components, consecutive indices
     std::size_t port_count{0U};
@@ -51,6 +56,15 @@ struct WindowRow {
     bool has_hand_on{false};            ///< one of its connections is forward in the window
     bool has_rate{false};               ///< `rate_hz` is declared
 };
+
+/// Whether ordinary windows of its core preempt the window.
+constexpr bool is_background(const WindowRow& row) noexcept {
+    return row.background_of != kNoIndex;
+}
+/// Declared limit of the execution time of all components of the window together.
+constexpr Duration get_declared_budget(const WindowRow& row) noexcept {
+    return is_background(row) ? row.execution_budget : row.budget;
+}
 
 /// Row of one component.
 struct ComponentRow {
