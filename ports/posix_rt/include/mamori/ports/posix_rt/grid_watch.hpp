@@ -4,7 +4,7 @@
 /// sees that a window did not open or was not over when it should, or that the clock runs at a wrong rate,
 /// and closes the outputs.
 ///
-/// @satisfies SWR-PRT-031, SWR-PRT-033, SWR-PRT-034, SWR-PRT-040, SWR-PRT-041
+/// @satisfies SWR-PRT-031, SWR-PRT-033, SWR-PRT-034, SWR-PRT-040, SWR-PRT-041, SWR-PRT-083
 ///     Design: docs/design/posix_rt.md#watch
 #ifndef MAMORI_PORTS_POSIX_RT_GRID_WATCH_HPP
 #define MAMORI_PORTS_POSIX_RT_GRID_WATCH_HPP
@@ -28,7 +28,8 @@
 namespace mamori::ports::posix_rt {
 
 /// What the runner of one core must have done next, and by when: an atomic instant that it moves on with each
-/// opening and each end of a window.
+/// opening and each end of a window. A background window may be later by its length without its budget: so
+/// long may other windows preempt it and its runner.
 ///
 /// Thread safety: get_due() from any thread; the rest from the thread that runs the windows, expect() and
 ///                rest() also before and after it does. Time: O(windows) per opening, no lock, no system

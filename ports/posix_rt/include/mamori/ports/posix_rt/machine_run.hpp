@@ -57,6 +57,7 @@ class DeviceCaller final : public OpeningObserver {
 
 /// Thread that runs the windows of one core.
 struct RunnerThread {
+    ThreadPlace place{};
     CoreRunner* runner{nullptr};
     GridBeat* beat{nullptr};
     MachineRun* watched{nullptr};  ///< of the first core: serves the watchdog of this run; else nullptr
@@ -106,7 +107,7 @@ class MachineRun final : public StopListener {
                          std::uint64_t frames) noexcept;
     Status run_watched(const MachineParts& parts, const MachineOptions& options,
                        std::uint64_t frames) noexcept;
-    Status run_threads(const MachineParts& parts, const MachineOptions& options) noexcept;
+    Status run_threads(const MachineParts& parts) noexcept;
     Status stop(const MachineParts& parts) noexcept;
     void collect(const MachineParts& parts) noexcept;
     void record(Instant time, MachineEvent event, Severity severity, std::int64_t argument) noexcept;
