@@ -39,7 +39,9 @@ struct SystemState {
 struct TimingOptions {
     std::uint64_t cycles{60000U};  ///< major frames, > 0
     std::string out;               ///< folder of the results; is created
-    int priority{80};              ///< of SCHED_FIFO for runner threads; window threads get 10 less
+    /// Of SCHED_FIFO for runner threads; window threads get 10 less. Runners and windows of background
+    /// windows are below them.
+    int priority{80};
     /// Writes table.json to the given path; empty: the table without names. @return the error, or empty.
     std::function<std::string(const std::string&)> save_table{};
     /// Called after the run; returns notes for the readers of the times. Empty: none.
