@@ -18,9 +18,9 @@ namespace {
 using namespace literals;
 
 constexpr Duration kLoopMax = 100_us;
-constexpr Duration kPlanMax = 15_ms;
-constexpr Duration kPlanBudget = 18_ms;
-constexpr Duration kPlanLong = 19_ms;  ///< an overrun that returns before the next window start
+constexpr Duration kPlanMax = 12_ms;
+constexpr Duration kPlanBudget = 15_ms;
+constexpr Duration kPlanLong = 16_ms;  ///< an overrun that returns before the next window start
 constexpr std::size_t kCyclesMax = 10'000U * 50U;
 
 bool is_long(std::int64_t cycle) {
@@ -119,8 +119,8 @@ struct System {
     static inline Crossing<std::int64_t> to_loop;
     static constexpr auto kTable =
         system(frame(50_ms), publication_margin(200_us), trace_hash(),
-               window("loop", 0_us, 450_us, every(1_ms), budget(450_us), run(loop)),
-               window("plan", 700_us, 49'000_us, background(), budget(kPlanBudget), run(planner)),
+               window("loop", 0_us, 650_us, every(1_ms), budget(650_us), run(loop)),
+               window("plan", 850_us, 48'950_us, background(), budget(kPlanBudget), run(planner)),
                connect(loop.out, planner.in, through(to_planner), any_age()),
                connect(planner.out, loop.in, through(to_loop), any_age()));
 };
@@ -129,7 +129,7 @@ using Virtual = System<1>;
 
 Loop g_lonely;
 constexpr auto kAlone =
-    system(frame(50_ms), window("loop", 0_us, 450_us, every(1_ms), budget(450_us), run(g_lonely)));
+    system(frame(50_ms), window("loop", 0_us, 650_us, every(1_ms), budget(650_us), run(g_lonely)));
 
 class Ear final : public ExecutionObserver {
   public:
