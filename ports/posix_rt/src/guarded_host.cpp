@@ -195,7 +195,7 @@ std::size_t GuardedHost::run_within(const Work& work, Instant deadline) noexcept
     promote(thread);
     thread.work_ = work;
     if (thread.execution_budget_ > Duration{0} && deadline != thread.deadline_) {
-        // The first work of an instance. The thread waits, so its processor time stands still.
+        // The first work of an instance. The thread waits, so its processor time is constant.
         thread.used_max_ns_ = read_used_ns(thread.thread_) + thread.execution_budget_.ns;
     }
     thread.deadline_ = deadline;
@@ -218,7 +218,7 @@ std::size_t GuardedHost::run_within(const Work& work, Instant deadline) noexcept
     return thread.finished_count_.load(std::memory_order_acquire);
 }
 
-/// The deadline; for a window with a limited processor time, not later than this can be used up.
+/// The deadline; for a window with a limited processor time, not later than this can be exhausted.
 Instant GuardedHost::calc_next_look(const WindowThread& thread) const noexcept {
     if (thread.execution_budget_ == Duration{0}) {
         return thread.deadline_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the budget of a background window is processor time of its thread: work that waits keeps it, work
-// that
-//       uses it up is cut off before its deadline, and each instance of the window has it once.
+// Goal: the budget of a background window is processor time of its thread: work that waits keeps it, work that
+//       exhausts it is aborted before its deadline, and each instance of the window has it once.
 // Method: work that computes for a processor time, waits, or computes until it is told to stop; deadlines are
 //         minutes away.
 #include <gtest/gtest.h>
@@ -71,7 +70,7 @@ TEST_F(ExecutionBudgetTest, WorkThatWaitsKeepsItsProcessorTime) {
     EXPECT_EQ(run(2U, deadline_), 2U);
 }
 
-TEST_F(ExecutionBudgetTest, WorkThatHangsIsCutOffBeforeItsDeadline) {
+TEST_F(ExecutionBudgetTest, WorkThatHangsIsAbortedBeforeItsDeadline) {
     verifies("SWR-PRT-080", Technique::kFaultInjection, Polarity::kViolation);
     time_ = 600_s;
 
@@ -81,7 +80,7 @@ TEST_F(ExecutionBudgetTest, WorkThatHangsIsCutOffBeforeItsDeadline) {
     EXPECT_FALSE(host_.has_returned(0U));
 }
 
-TEST_F(ExecutionBudgetTest, AStepThatReturnsAfterItHasUsedTheBudgetUpIsNotInTime) {
+TEST_F(ExecutionBudgetTest, AStepThatReturnsAfterItHasExhaustedTheBudgetIsNotInTime) {
     verifies("SWR-PRT-080", Technique::kBoundaryValues, Polarity::kViolation);
     time_ = 30_ms;
     EXPECT_EQ(run(2U, deadline_), 1U);

@@ -207,7 +207,7 @@ TEST(PreemptionStartTest, AWindowThatIsReleasedDuringAnOrdinaryOneStartsLate) {
 
     ASSERT_EQ(machine.run(2U), Status::kOk);
 
-    EXPECT_EQ(observer.heard, (Heard{"late 2 by 15", "late 2 by 15"})) << "until the second window is over";
+    EXPECT_EQ(observer.heard, (Heard{"late 2 by 15", "late 2 by 15"})) << "until the second window ends";
     EXPECT_EQ(machine.get_overrun_count(), 0U);
     machine.get_executives().get(1U).set_observer(nullptr);
 }

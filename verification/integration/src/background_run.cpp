@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loop of 1 kHz beside a background window of 50 ms on one processor, in pairs with the loop alone:
+// A loop of 1 kHz next to a background window of 50 ms on one processor, in pairs with the loop alone:
 //     background_run [FRAMES [PAIRS [PROCESSOR]]]
 // Ends with 0; 1: data differ from virtual time, an overrun is not named, or the median of the ratios of the
 // p99 lateness is above 1.10 over at least 10 pairs; 2: wrong arguments; 3: inconclusive, since fixed

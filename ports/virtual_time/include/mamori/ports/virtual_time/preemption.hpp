@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Preemption in virtual time: work of a background window stands still while an ordinary window of its core
+/// Preemption in virtual time: work of a background window waits while an ordinary window of its core
 /// takes its modelled time.
 ///
 /// @satisfies SWR-VTM-010, SWR-VTM-011      Design: docs/design/conformance.md#preemption
