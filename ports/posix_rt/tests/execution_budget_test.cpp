@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the budget of a background window is processor time of its thread: work that waits keeps it, work that
+// Goal: the budget of a background window is processor time of its thread: work that waits keeps it, work
+// that
 //       exhausts it is aborted before its deadline, and each instance of the window has it once.
 // Method: work that computes for a processor time, waits, or computes until it is told to stop; deadlines are
 //         minutes away.

@@ -113,8 +113,8 @@ class GuardedHost final : public WindowHost {
 
     Instant get_now() const noexcept override { return clock_.get_now(); }
     Instant get_step_end() const noexcept override { return clock_.get_now(); }
-    /// Work that is not back by the deadline, or that has exhausted its processor time, is aborted. Until it is
-    /// back its thread has no fixed priority; an ordinary thread runs in SCHED_IDLE, where the process may
+    /// Work that is not back by the deadline, or that has exhausted its processor time, is aborted. Until it
+    /// is back its thread has no fixed priority; an ordinary thread runs in SCHED_IDLE, where the process may
     /// end that again. So a hang takes no time from another window. When the calling thread is not above the
     /// windows (it has lost its priority, say), all windows lose theirs: the guard comes first.
     std::size_t run_within(const Work& work, Instant deadline) noexcept override;
