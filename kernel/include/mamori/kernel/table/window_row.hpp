@@ -2,7 +2,7 @@
 /// @file
 /// Rows of a system table for the schedule: windows and their components.
 ///
-/// @satisfies SWR-KRN-017, SWR-KRN-080      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-017, SWR-KRN-080, SWR-KRN-083      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_ROW_HPP
 #define MAMORI_KERNEL_WINDOW_ROW_HPP
 
@@ -23,10 +23,12 @@ inline constexpr std::size_t kAlternativeRateMax = 4U;
 /// execution context.
 struct WindowRow {
     const char* name{nullptr};  ///< static storage; unique
-    Duration offset{};          ///< first window start, from the start of the major frame, >= 0
-    Duration length{};          ///< from window start to window end, > 0; offset + length <= period
-    Duration period{};          ///< between two window starts, > 0; divides the major frame
-    Duration budget{};          ///< from the actual start, > 0; ends at the latest at the planned end
+    /// Core of a background window; kNoIndex: an ordinary window. In a gap that 32-bit processors leave here.
+    std::size_t background_of{kNoIndex};
+    Duration offset{};  ///< first window start, from the start of the major frame, >= 0
+    Duration length{};  ///< from window start to window end, > 0; offset + length <= period
+    Duration period{};  ///< between two window starts, > 0; divides the major frame
+    Duration budget{};  ///< from the actual start, > 0; ends at the latest at the planned end
     /// Processor time of a background window, > 0; its `budget` is its `length`. 0: an ordinary window.
     Duration execution_budget{};
     double rate_hz{0.0};  ///< declared cycles per second [Hz]; valid only if `has_rate`
@@ -37,9 +39,8 @@ struct WindowRow {
     /// Number of the executive that runs it. Ordinary windows: the processor core 0, 1, ...; background
     /// windows of a core have a number of their own after all cores.
     std::size_t core{0U};
-    std::size_t background_of{kNoIndex};  ///< core of a background window; kNoIndex: an ordinary window
-    const char* partition{""};            ///< name; equal names denote the same partition
-    std::size_t first_component{0U};      ///< its components, consecutive indices of the table
+    const char* partition{""};        ///< name; equal names denote the same partition
+    std::size_t first_component{0U};  ///< its components, consecutive indices of the table
     std::size_t component_count{0U};
     std::size_t first_port{0U};  ///< ports of its components, consecutive indices
     std::size_t port_count{0U};

@@ -4,8 +4,8 @@
 /// the thread that runs the executive only waits for it, at a higher priority and never beyond the deadline.
 /// So a budget is enforced without the help of the code that exceeds it, and a hang costs its window alone.
 ///
-/// @satisfies SWR-PRT-003, SWR-PRT-004, SWR-PRT-035, SWR-PRT-040, SWR-PRT-041, SWR-PRT-042, SWR-PRT-060,
-/// SWR-PRT-080
+/// @satisfies SWR-PRT-003, SWR-PRT-004, SWR-PRT-035, SWR-PRT-040, SWR-PRT-041, SWR-PRT-042, SWR-PRT-060
+/// @satisfies SWR-PRT-080
 ///     Design: docs/design/posix_rt.md#guard, docs/design/posix_rt.md#stacks
 #ifndef MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
 #define MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
