@@ -3,8 +3,8 @@
 /// Runs a system in real time for a number of major frames and writes the measurements for `mamori timing`.
 /// For hosts: link mamori::timing into your program and offer `timing --cycles N --out DIR [--requests]`.
 ///
-/// @satisfies SWR-PRT-084, SWR-TIM-002, SWR-TIM-003, SWR-TIM-005, SWR-TIM-041, SWR-TIM-046      Design:
-/// docs/design/timing.md#measured-run
+/// @satisfies SWR-PRT-084, SWR-TIM-002, SWR-TIM-003, SWR-TIM-005, SWR-TIM-041, SWR-TIM-046
+/// Design:   docs/design/timing.md#measured-run
 #ifndef MAMORI_TIMING_TIMING_RUN_HPP
 #define MAMORI_TIMING_TIMING_RUN_HPP
 
