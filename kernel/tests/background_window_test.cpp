@@ -131,6 +131,17 @@ TEST(BackgroundWindowTest, ARowThatContradictsItsClassIsInvalid) {
     EXPECT_EQ(check_change([](auto& rows) { rows[0].background_of = 2U; }), invalid) << "of itself";
 }
 
+TEST(BackgroundWindowTest, EventsPerCycleBeyondTheRowAreRejected) {
+    verifies("SWR-KRN-018", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_events = [](std::size_t events) {
+        return list_rules(
+            system(frame(1_ms), window("a", 0_ms, 1_ms, event_driven(events), budget(1_ms), run(g_counter))));
+    };
+
+    EXPECT_EQ(check_events(65'535U), Rules{});
+    EXPECT_EQ(check_events(65'536U), Rules{Rule::kWindowRowInvalid});
+}
+
 /// Maximum time of the ordinary windows before `own` is done, for each start within their common period.
 std::int64_t count_delay(const std::vector<WindowRow>& rows, std::int64_t own, std::int64_t period) {
     std::int64_t worst = 0;

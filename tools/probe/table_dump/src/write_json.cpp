@@ -36,7 +36,7 @@ const char* get_name(ExecutionKind kind) {
 std::string make_window(const SystemView& view, std::size_t index) {
     const WindowRow& row = view.windows[index];
     std::string slower;
-    for (std::size_t i = 0U; i < std::min(row.alternative_count, kAlternativeRateMax); ++i) {
+    for (std::size_t i = 0U; i < std::min<std::size_t>(row.alternative_count, kAlternativeRateMax); ++i) {
         slower += (i == 0U ? "" : ", ") + std::to_string(row.alternative_periods[i].ns);
     }
     return "{\"name\": " + quote(to_text(row.name)) + ", \"core\": " + std::to_string(row.core) +

@@ -8,6 +8,8 @@
 #define MAMORI_KERNEL_WINDOW_OPTION_HPP
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/context_plan.hpp"
@@ -79,7 +81,7 @@ struct EventDriven {
     std::size_t events_per_cycle;
 };
 /// The window processes the events of its state machines (kind EVENT_DRIVEN).
-/// @param[in] events_per_cycle maximum for each state machine in one window instance, >= 1.
+/// @param[in] events_per_cycle maximum for each state machine in one window instance, 1 .. 65535.
 constexpr EventDriven event_driven(std::size_t events_per_cycle) noexcept {
     return {events_per_cycle};
 }
@@ -108,7 +110,9 @@ constexpr void apply(WindowRow& row, TriggeredBy option) noexcept {
 }
 constexpr void apply(WindowRow& row, EventDriven option) noexcept {
     row.kind = ExecutionKind::kEventDriven;
-    row.events_per_cycle = option.events_per_cycle;
+    // A number out of range becomes 0, which the table check rejects.
+    const bool is_in_range = option.events_per_cycle <= std::numeric_limits<std::uint16_t>::max();
+    row.events_per_cycle = static_cast<std::uint16_t>(is_in_range ? option.events_per_cycle : 0U);
 }
 
 }  // namespace detail

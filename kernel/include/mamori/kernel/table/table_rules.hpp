@@ -40,7 +40,7 @@
 #define MAMORI_TABLE_RULES(X)                                                                              \
     X(FrameNotPositive, FrameIsPositive, Row, "a frame has a positive length")                             \
     X(WindowRowInvalid, WindowRowIsValid, Row,                                                             \
-      "a window has a name, a positive period and components, at least one event per cycle, a trigger "    \
+      "a window has a name, a positive period and components, 1 .. 65535 events per cycle, a trigger "     \
       "exactly when it is triggered, slower rates only when it is periodic, an executive of its class, "   \
       "and the rows that name it")                                                                         \
     X(ComponentRowInvalid, WorstCaseIsNotNegative, Component,                                              \

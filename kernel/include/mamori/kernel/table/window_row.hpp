@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/context_plan.hpp"
@@ -35,7 +36,6 @@ struct WindowRow {
     /// Periods of slower rates, each an integer multiple of `period`; the first `alternative_count` are
     /// valid.
     std::array<Duration, kAlternativeRateMax> alternative_periods{};
-    std::size_t alternative_count{0U};
     /// Number of the executive that runs it. Ordinary windows: the processor core 0, 1, ...; background
     /// windows of a core have a number of their own after all cores.
     std::size_t core{0U};
@@ -48,14 +48,15 @@ struct WindowRow {
     std::size_t latch_count{0U};
     std::size_t first_parameter{0U};  ///< parameters of its components, rows of the configuration
     std::size_t parameter_count{0U};
-    ExecutionKind kind{ExecutionKind::kPeriodic};
     ExternalTrigger* trigger{nullptr};  ///< its ticks release the cycles of kind kOther
-    std::size_t events_per_cycle{1U};   ///< maximum per state machine for kind kEventDriven, >= 1
-    bool has_second_pass{true};         ///< one of its components overrides on_state_update
-    bool has_outputs{true};             ///< one of its components has an output
-    bool has_deliveries{true};          ///< one of its outputs feeds a queue or a crossing
-    bool has_hand_on{false};            ///< one of its connections is forward in the window
-    bool has_rate{false};               ///< `rate_hz` is declared
+    ExecutionKind kind{ExecutionKind::kPeriodic};
+    std::uint16_t events_per_cycle{1U};  ///< maximum per state machine for kind kEventDriven, >= 1
+    std::uint8_t alternative_count{0U};
+    bool has_second_pass{true};  ///< one of its components overrides on_state_update
+    bool has_outputs{true};      ///< one of its components has an output
+    bool has_deliveries{true};   ///< one of its outputs feeds a queue or a crossing
+    bool has_hand_on{false};     ///< one of its connections is forward in the window
+    bool has_rate{false};        ///< `rate_hz` is declared
 };
 
 /// Whether ordinary windows of its core preempt the window.
