@@ -132,10 +132,16 @@ TEST(CompileFailTest, ACrossingOfTwoConnectionsIsRefused) {
                    "InputHasACrossingOfItsOwn<Consumer, &Consumer::in, 1>");
 }
 
-TEST(CompileFailTest, AReaderThatOpensWhileItsWriterIsOpenIsRefused) {
-    verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
-    expect_refused("connections", "crossing_not_ordered",
-                   "ReaderStartsOutsideWritersWindow<Consumer, &Consumer::in, 0>");
+TEST(CompileFailTest, AReaderWhoseValueMayBeOverwrittenIsRejected) {
+    verifies("SWR-KRN-082", Technique::kInterface, Polarity::kViolation);
+    expect_refused("connections", "history_too_short",
+                   "ReaderStartsBeforeValueIsOverwritten<Consumer, &Consumer::in, 0>");
+}
+
+TEST(CompileFailTest, ABackgroundWindowThatCannotCompleteIsRejectedByItsName) {
+    verifies("SWR-KRN-081", Technique::kInterface, Polarity::kViolation);
+    expect_refused("windows", "background_too_slow",
+                   "BackgroundWindowCanComplete<mamori::Name<'p', 'l', 'a', 'n'>");
 }
 
 TEST(CompileFailTest, AReaderThatStartsWithinThePublicationMarginIsRefused) {

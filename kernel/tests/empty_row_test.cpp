@@ -27,10 +27,12 @@ constexpr bool are_zero(Numbers... numbers) noexcept {
 }
 
 constexpr bool is_empty(const WindowRow& row) noexcept {
-    return row.name == nullptr && row.trigger == nullptr && row.kind == ExecutionKind::kPeriodic &&
-           are_zero(row.offset.ns, row.length.ns, row.period.ns, row.budget.ns, row.alternative_count,
-                    row.core, row.first_component, row.component_count, row.first_port, row.port_count,
-                    row.first_latch, row.latch_count, row.first_parameter, row.parameter_count) &&
+    return row.name == nullptr && row.background_of == kNoIndex && row.trigger == nullptr &&
+           row.kind == ExecutionKind::kPeriodic &&
+           are_zero(row.offset.ns, row.length.ns, row.period.ns, row.budget.ns, row.execution_budget.ns,
+                    row.alternative_count, row.core, row.first_component, row.component_count, row.first_port,
+                    row.port_count, row.first_latch, row.latch_count, row.first_parameter,
+                    row.parameter_count) &&
            row.events_per_cycle == 1U && row.has_outputs && row.has_deliveries && !row.has_hand_on;
 }
 constexpr bool is_empty(const ComponentRow& row) noexcept {

@@ -199,12 +199,14 @@ void add_windows(Damages& d) {
                     of(&WindowRow::latch_count));
         d.add_range(at + "parameters", invalid, w, t.configuration.parameters.size(),
                     of(&WindowRow::first_parameter), of(&WindowRow::parameter_count));
-        d.add_index(at + "alternatives", {Rule::kWindowRowInvalid, Rule::kRateNotReachable}, w,
-                    kAlternativeRateMax, of(&WindowRow::alternative_count));
-        d.add(at + "events", invalid, w, std::size_t{0U}, of(&WindowRow::events_per_cycle));
+        for (const std::size_t count : {kAlternativeRateMax, kAlternativeRateMax + 1U, std::size_t{0xFFU}}) {
+            d.add(at + "alternatives", {Rule::kWindowRowInvalid, Rule::kRateNotReachable}, w,
+                  static_cast<std::uint8_t>(count), of(&WindowRow::alternative_count));
+        }
+        d.add(at + "events", invalid, w, std::uint16_t{0U}, of(&WindowRow::events_per_cycle));
         d.add(at + "kind", invalid, w, ExecutionKind{3U}, of(&WindowRow::kind));
         d.add(at + "kind", invalid, w, ExecutionKind{~0U}, of(&WindowRow::kind));
-        d.add(at + "events", {}, w, kNoIndex, of(&WindowRow::events_per_cycle));  // an upper bound
+        d.add(at + "events", {}, w, std::uint16_t{0xFFFFU}, of(&WindowRow::events_per_cycle));  // in range
     }
 }
 

@@ -23,7 +23,7 @@ needs_graphviz = pytest.mark.skipif(shutil.which("dot") is None, reason="graphvi
 
 
 def window(name: str, core: int, offset: int, length: int, period: int, budget: int, **more: object) -> dict[str, object]:
-    return {"name": name, "core": core, "partition": "", "kind": "periodic", "offset_ns": offset, "length_ns": length,
+    return {"name": name, "core": core, "background_of": None, "partition": "", "kind": "periodic", "offset_ns": offset, "length_ns": length,
             "period_ns": period, "budget_ns": budget, "rate_hz": None, "slower_periods_ns": [], "events_per_cycle": None, **more}  # fmt: skip
 
 
@@ -38,7 +38,7 @@ def connection(source: int, out: str, sink: int, into: str, way: str, fresh: int
 
 
 TABLE: dict[str, object] = {
-    "schema": "mamori.table/2", "frame_ns": 10 * MS, "abort_policy": "spec_only",
+    "schema": "mamori.table/3", "frame_ns": 10 * MS, "abort_policy": "spec_only",
     "windows": [window("sense", 0, 0, 200 * US, MS, 150 * US, rate_hz=1000.0, slower_periods_ns=[2 * MS]),
                 window("plan", 1, 1200 * US, 7 * MS, 10 * MS, 6 * MS, partition="open"),
                 window("log", 1, 9 * MS, 500 * US, 10 * MS, 300 * US, kind="event_driven", events_per_cycle=3)],
@@ -80,6 +80,19 @@ def test_text_shows_windows_connections_and_reactions(tmp_path: Path, capsys: py
     assert "TrackingLost none" in lines
     assert lines[-1] == "the table keeps every rule"
     assert "\x1b" not in said.out
+
+
+@pytest.mark.verifies("SWR-TAB-004")
+def test_background_windows_follow_the_ordinary_windows_of_their_core(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    windows = [window("plan", 2, 0, 9 * MS, 10 * MS, 2 * MS, background_of=0), window("act", 1, 0, MS, MS, MS), window("sense", 0, 0, MS, MS, MS)]
+    path = write(tmp_path, windows=windows, components=[], connections=[])
+
+    assert table(path) == 0
+
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith("frame 10 ms, 2 cores, 3 windows")
+    heads = [line for line in lines if "budgets take" in line]
+    assert heads == ["core 0, budgets take 100.0 %", "background of core 0, budgets take 20.0 %", "core 1, budgets take 100.0 %"]
 
 
 @pytest.mark.verifies("SWR-TAB-004", technique="fault_injection", polarity="violation")
@@ -292,7 +305,7 @@ def changed(key: str, value: object) -> str:
         ("[" * 100_000, "is no whole JSON document"),
         ("[]", "the table must be an object"),
         ("{}", "the table has no 'schema'"),
-        (changed("schema", "mamori.log/1"), "has the schema 'mamori.log/1', this command reads 'mamori.table/2'"),
+        (changed("schema", "mamori.log/1"), "has the schema 'mamori.log/1', this command reads 'mamori.table/3'"),
         (changed("frame_ns", True), "frame_ns must be an integer"),
         (changed("frame_ns", 10**30), "frame_ns must be an integer of 64 bits"),
         (changed("frame_ns", 0), "frame_ns is 0, must be positive, and no finding says that it is not"),

@@ -125,7 +125,7 @@ void Introspection::publish_window(std::size_t window, const ExecutionContext& c
     row.name = table_row.name;
     row.core = table_row.core;
     row.observed_at = opening;
-    row.budget = table_row.budget;
+    row.budget = get_declared_budget(table_row);
     row.hanging_component = hanging.has_value() ? table_row.first_component + hanging.get_value() : kNoIndex;
     windows_[window].cell.write(row);
     const auto frame = static_cast<std::uint64_t>(opening.ns / view_.frame.ns);

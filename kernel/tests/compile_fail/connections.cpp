@@ -127,20 +127,24 @@ constexpr auto kSystem = mamori::system(
 MAMORI_CHECK(kSystem);
 }  // namespace crossing_used_twice
 
-// The reader opens 1 ns before its writer on the other core closes.
-namespace crossing_not_ordered {
-#ifdef MAMORI_BREAK_CROSSING_NOT_ORDERED
-constexpr mamori::Duration kOffset = 100_us - 1_ns;
+// The reader may start 600 us late, when its writer overwrites the value of its planned start.
+namespace history_too_short {
+#ifdef MAMORI_BREAK_HISTORY_TOO_SHORT
+constexpr mamori::Duration kOffset = 500_us - 1_ns;
 #else
-constexpr mamori::Duration kOffset = 100_us;
+constexpr mamori::Duration kOffset = 500_us;
 #endif
 constexpr auto kSystem = mamori::system(
-    mamori::frame(1_ms),
-    mamori::window("sense", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
-    mamori::window("plan", kOffset, 100_us, mamori::core(1), mamori::budget(50_us), mamori::run(g_consumer)),
+    mamori::frame(10_ms),
+    mamori::window("sense", 0_us, 500_us, mamori::every(1_ms), mamori::budget(100_us),
+                   mamori::run(g_producer)),
+    mamori::window("act", 500_us, 500_us, mamori::every(1_ms), mamori::budget(500_us),
+                   mamori::run(g_second_producer)),
+    mamori::window("plan", kOffset, 9_ms, mamori::background(), mamori::budget(1_ms),
+                   mamori::run(g_consumer)),
     mamori::connect(g_producer.real, g_consumer.in, mamori::through(g_crossing), mamori::any_age()));
 MAMORI_CHECK(kSystem);
-}  // namespace crossing_not_ordered
+}  // namespace history_too_short
 
 // The reader starts 1 ns before the publication margin after its writer on the other core ends.
 namespace margin_not_kept {

@@ -31,6 +31,21 @@ constexpr auto kSystem = mamori::system(
 MAMORI_CHECK(kSystem);
 }  // namespace windows_overlap
 
+// A background window ends one nanosecond before it has its processor time: 5 ms at 40 % load.
+namespace background_too_slow {
+#ifdef MAMORI_BREAK_BACKGROUND_TOO_SLOW
+constexpr mamori::Duration kLength = 8600_us - 1_ns;
+#else
+constexpr mamori::Duration kLength = 8600_us;
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(10_ms),
+    mamori::window("a", 0_us, 500_us, mamori::every(1_ms), mamori::budget(400_us), mamori::run(g_producer)),
+    mamori::window("plan", 0_us, kLength, mamori::background(), mamori::budget(5_ms),
+                   mamori::run(g_second_producer)));
+MAMORI_CHECK(kSystem);
+}  // namespace background_too_slow
+
 // Two windows of one name, which no report could tell apart.
 namespace window_named_twice {
 #ifdef MAMORI_BREAK_WINDOW_NAMED_TWICE

@@ -5,17 +5,28 @@
 #include "mamori/kernel/base/assert.hpp"
 
 namespace mamori::ports::posix_rt {
+namespace {
+
+constexpr Duration calc_allowance(const WindowRow& row) noexcept {
+    return is_background(row) ? row.length - row.execution_budget : Duration{0};
+}
+
+}  // namespace
 
 void GridBeat::expect(Instant from) noexcept {
     const FrameSchedule schedule{view_, core_, from};
-    due_ns_.store(schedule.get_next().release.ns, std::memory_order_release);
+    const FrameSchedule::Opening& next = schedule.get_next();
+    const Duration allowance =
+        next.window == kNoIndex ? Duration{0} : calc_allowance(view_.windows[next.window]);
+    due_ns_.store((next.release + allowance).ns, std::memory_order_release);
 }
 
 void GridBeat::before_opening(const FrameSchedule::Opening& opening, Instant woke) noexcept {
     if (inner_ != nullptr) {
         inner_->before_opening(opening, woke);
     }
-    const Instant closing = opening.release + view_.windows[opening.window].length;
+    const WindowRow& row = view_.windows[opening.window];
+    const Instant closing = opening.release + row.length + calc_allowance(row);
     due_ns_.store(closing.ns, std::memory_order_release);
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 
+#include <time.h>
+
 #include <cerrno>
+#include <limits>
 
 #include "failure_order.hpp"
 #include "mamori/kernel/base/assert.hpp"
@@ -27,6 +30,22 @@ bool wait_for(sem_t& semaphore, const timespec& until) noexcept {
     return true;
 }
 
+std::int64_t read_ns(clockid_t clock) noexcept {
+    timespec now{};
+    MAMORI_ENSURE(6, clock_gettime(clock, &now) == 0);
+    return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+}
+
+/// Processor time of a thread.
+std::int64_t read_used_ns(pthread_t thread) noexcept {
+    clockid_t clock{};
+    MAMORI_ENSURE(7, pthread_getcpuclockid(thread, &clock) == 0);
+    return read_ns(clock);
+}
+
+/// Shortest wait between two looks at the processor time of a window.
+constexpr std::int64_t kLookMin = 20'000;
+
 /// Whether a guard of priority `runner` runs while a window of priority `window` does. Two ordinary threads
 /// share their processor.
 constexpr bool is_guarded(int window, int runner) noexcept {
@@ -40,6 +59,17 @@ Status WindowThread::set_stack_size(std::size_t size) noexcept {
         return Status::kPreconditionNotMet;
     }
     stack_size_ = size;
+    return Status::kOk;
+}
+
+Status WindowThread::set_execution_budget(Duration budget) noexcept {
+    if (budget < Duration{0}) {
+        return Status::kBadParameter;
+    }
+    if (is_open_) {
+        return Status::kPreconditionNotMet;
+    }
+    execution_budget_ = budget;
     return Status::kOk;
 }
 
@@ -62,7 +92,8 @@ void WindowThread::work_off() noexcept {
     for (std::size_t i = 0U; i < work_.count; ++i) {
         set_crash_place(work_.window, work_.component + i);
         work_.run(work_.argument, work_.first + i, work_.first + i + 1U);
-        if (clock_->get_now() > deadline_) {
+        if (clock_->get_now() > deadline_ ||
+            (execution_budget_ > Duration{0} && is_exhausted(read_ns(CLOCK_THREAD_CPUTIME_ID)))) {
             break;
         }
         finished_count_.store(i + 1U, std::memory_order_release);
@@ -88,6 +119,7 @@ Status GuardedHost::start(WindowThread& thread) noexcept {
     }
     thread.is_open_ = true;
     thread.is_demoted_ = false;
+    thread.deadline_ = Instant{std::numeric_limits<std::int64_t>::min()};
     thread.priority_ = rights.priority.is_granted ? place_.priority : 0;
     window_priority_ = thread.priority_ > window_priority_ ? thread.priority_ : window_priority_;
     priority_right_ = combine(priority_right_, rights.priority);
@@ -162,13 +194,21 @@ std::size_t GuardedHost::run_within(const Work& work, Instant deadline) noexcept
     }
     promote(thread);
     thread.work_ = work;
+    if (thread.execution_budget_ > Duration{0} && deadline != thread.deadline_) {
+        // The first work of an instance. The thread waits, so its processor time is constant.
+        thread.used_max_ns_ = read_used_ns(thread.thread_) + thread.execution_budget_.ns;
+    }
     thread.deadline_ = deadline;
     thread.finished_count_.store(0U, std::memory_order_relaxed);
     ++thread.asked_;
     static_cast<void>(sem_post(&thread.wanted_));
-    const timespec until = clock_.to_timespec(deadline);
+    Instant look = calc_next_look(thread);
     while (thread.is_out()) {
-        if (!wait_for(thread.returned_, until) && thread.is_out()) {
+        if (!wait_for(thread.returned_, clock_.to_timespec(look)) && thread.is_out()) {
+            if (look < deadline && !thread.is_exhausted(read_used_ns(thread.thread_))) {
+                look = calc_next_look(thread);
+                continue;
+            }
             demote(thread);
             // Every step may have come through while the thread is still on its way back: not in time.
             const std::size_t finished = thread.finished_count_.load(std::memory_order_acquire);
@@ -176,6 +216,16 @@ std::size_t GuardedHost::run_within(const Work& work, Instant deadline) noexcept
         }
     }
     return thread.finished_count_.load(std::memory_order_acquire);
+}
+
+/// The deadline; for a window with a limited processor time, not later than this can be exhausted.
+Instant GuardedHost::calc_next_look(const WindowThread& thread) const noexcept {
+    if (thread.execution_budget_ == Duration{0}) {
+        return thread.deadline_;
+    }
+    const std::int64_t left = thread.used_max_ns_ - read_used_ns(thread.thread_);
+    const Instant look = clock_.get_now() + Duration{left > kLookMin ? left : kLookMin};
+    return look < thread.deadline_ ? look : thread.deadline_;
 }
 
 /// The calling thread runs the windows. What it cannot interrupt it cannot guard.

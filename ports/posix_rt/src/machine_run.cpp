@@ -55,7 +55,11 @@ class RunnerPriority final {
 };
 
 bool is_valid(const MachineOptions& options, const MachineParts& parts) noexcept {
-    const Duration frame = parts.executives.get(0U).get_view().frame;
+    const SystemView& view = parts.executives.get(0U).get_view();
+    const Duration frame = view.frame;
+    const std::size_t processors = mamori::detail::count_processors(view);
+    const int priority_min = parts.hosts.size() > processors ? MachineOptions::kBackgroundPriorityMin
+                                                             : MachineOptions::kPriorityMin;
     const GridLimits& watch = options.watch;
     const bool is_watch_valid = watch.lateness >= Duration{0} && watch.period > Duration{0} &&
                                 watch.rate.span > Duration{0} && watch.rate.limit_ppm > 0;
@@ -63,9 +67,9 @@ bool is_valid(const MachineOptions& options, const MachineParts& parts) noexcept
     const bool is_positive = options.lead > Duration{0} && options.watchdog_timeout > Duration{0};
     const std::int64_t left = is_positive ? options.watchdog_timeout.ns - options.lead.ns : 0;
     return is_watch_valid && is_positive && options.window_stack >= kThreadStackMin &&
-           options.runner_stack >= kThreadStackMin && options.priority >= MachineOptions::kPriorityMin &&
+           options.runner_stack >= kThreadStackMin && options.priority >= priority_min &&
            options.priority <= MachineOptions::kPriorityMax && left / 2 - frame.ns > watch.period.ns &&
-           (options.processors.empty() || options.processors.size() >= parts.hosts.size()) &&
+           (options.processors.empty() || options.processors.size() >= processors) &&
            (options.recorder == nullptr || options.recorder_capacity > 0U);
 }
 
@@ -99,12 +103,12 @@ Status close_hosts(Span<GuardedHost> hosts) noexcept {
 }
 
 /// The threads of windows inherit the block: work that hangs must not receive a stop signal.
-Status open_hosts(Span<GuardedHost> hosts, int runner_priority) noexcept {
+Status open_hosts(const MachineParts& parts) noexcept {
     const SignalBlock block;
-    for (std::size_t core = 0U; core < hosts.size(); ++core) {
-        const Status status = hosts[core].open(runner_priority);
+    for (std::size_t core = 0U; core < parts.hosts.size(); ++core) {
+        const Status status = parts.hosts[core].open(parts.threads[core].place.priority);
         if (status != Status::kOk) {
-            static_cast<void>(close_hosts(hosts.subspan(0U, core)));
+            static_cast<void>(close_hosts(parts.hosts.subspan(0U, core)));
             return status;
         }
     }
@@ -316,7 +320,7 @@ Status MachineRun::run_protected(const MachineParts& parts, const MachineOptions
     }
     // Threads whose work hung at the end of the last run and has returned since.
     static_cast<void>(close_hosts(parts.hosts));
-    if (const Status opened = open_hosts(parts.hosts, options.priority); opened != Status::kOk) {
+    if (const Status opened = open_hosts(parts); opened != Status::kOk) {
         return fail(MachineStep::kWindowThreads, opened);
     }
     Status status = fail(MachineStep::kStart, start(parts, options.priority));
@@ -375,7 +379,7 @@ Status MachineRun::run_watched(const MachineParts& parts, const MachineOptions& 
         watch_ = &watch;
         watchdog_ = &watchdog;
         served_look_count_ = 0U;
-        status = run_threads(parts, options);
+        status = run_threads(parts);
         close_outputs(this);
         static_cast<void>(watchdog.close());  // without effect after the runner of the first core
     }
@@ -408,7 +412,7 @@ void* MachineRun::serve(void* argument) noexcept {
     return nullptr;
 }
 
-Status MachineRun::run_threads(const MachineParts& parts, const MachineOptions& options) noexcept {
+Status MachineRun::run_threads(const MachineParts& parts) noexcept {
     std::size_t started = 0U;
     Status status = Status::kOk;
     report_.priority = {true, 0};
@@ -416,10 +420,7 @@ Status MachineRun::run_threads(const MachineParts& parts, const MachineOptions& 
     while (started < parts.threads.size() && status == Status::kOk &&
            !is_stop_wanted_.load(std::memory_order_relaxed)) {
         RunnerThread& thread = parts.threads[started];
-        const int processor =
-            options.processors.empty() ? ThreadPlace::kAnyProcessor : options.processors[started];
-        status = start_thread(thread.thread, &MachineRun::serve, &thread,
-                              {options.priority, processor, options.runner_stack}, thread.rights);
+        status = start_thread(thread.thread, &MachineRun::serve, &thread, thread.place, thread.rights);
         if (status == Status::kOk) {
             ++started;
         }
@@ -443,9 +444,11 @@ Status MachineRun::run_threads(const MachineParts& parts, const MachineOptions& 
 }
 
 void MachineRun::collect(const MachineParts& parts) noexcept {
-    for (CoreRunner& runner : parts.runners) {
-        const OpeningCounts& counts = runner.get_counts();
-        OpeningCounts& sum = report_.openings;
+    const SystemView& view = parts.executives.get(0U).get_view();
+    for (std::size_t core = 0U; core < parts.runners.size(); ++core) {
+        const OpeningCounts& counts = parts.runners[core].get_counts();
+        const bool is_ordinary = mamori::detail::find_background_of(view, core) == kNoIndex;
+        OpeningCounts& sum = is_ordinary ? report_.openings : report_.background;
         sum.opened += counts.opened;
         sum.overran += counts.overran;
         sum.missed += counts.missed;

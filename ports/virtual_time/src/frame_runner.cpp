@@ -1,7 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/ports/virtual_time/frame_runner.hpp"
 
+#include <algorithm>
+
+#include "mamori/kernel/run/executives.hpp"
+#include "mamori/ports/virtual_time/preemption.hpp"
+
 namespace mamori::ports::virtual_time {
+
+FrameRunner::FrameRunner(Span<SimulatedCore> cores, Devices& devices, std::uint64_t first_frame) noexcept
+    : cores_(cores), devices_(devices), frame_count_(first_frame) {
+    for (SimulatedCore& core : cores_) {
+        const Executive& executive = core.executive_;
+        const std::size_t ordinary =
+            mamori::detail::find_background_of(executive.get_view(), executive.get_core());
+        for (const SimulatedCore& other : cores_) {
+            core.ordinary_ = other.executive_.get_core() == ordinary ? &other : core.ordinary_;
+        }
+    }
+}
 
 SimulatedCore& FrameRunner::find_next() noexcept {
     SimulatedCore* best = &cores_[0];
@@ -11,6 +28,22 @@ SimulatedCore& FrameRunner::find_next() noexcept {
         }
     }
     return *best;
+}
+
+WindowOutcome FrameRunner::open(SimulatedCore& core, const FrameSchedule::Opening& opening) noexcept {
+    if (core.ordinary_ == nullptr) {
+        core.clock_.advance_to(opening.release);
+        return core.executive_.run_window(opening.window, opening.release, core.host_);
+    }
+    const SimulatedCore& ordinary = *core.ordinary_;
+    const WindowRow& row = core.executive_.get_view().windows[opening.window];
+    Preemption preemption{ordinary.executive_, ordinary.clock_, ordinary.schedule_, row.execution_budget};
+    const Instant busy_until = ordinary.clock_.get_now();
+    core.clock_.advance_to(preemption.calc_start(std::max(opening.release, busy_until)));
+    core.clock_.set_processor(&preemption);
+    const WindowOutcome outcome = core.executive_.run_window(opening.window, opening.release, core.host_);
+    core.clock_.set_processor(nullptr);
+    return outcome;
 }
 
 void FrameRunner::run_frame() noexcept {
@@ -24,11 +57,7 @@ void FrameRunner::run_frame() noexcept {
     for (SimulatedCore* core = &find_next(); core->schedule_.get_next().release < end; core = &find_next()) {
         const FrameSchedule::Opening opening = core->schedule_.get_next();
         core->schedule_.advance();
-        core->clock_.advance_to(opening.release);
-        if (core->executive_.run_window(opening.window, opening.release, core->host_) ==
-            WindowOutcome::kOverrun) {
-            ++overrun_count_;
-        }
+        overrun_count_ += open(*core, opening) == WindowOutcome::kOverrun ? 1U : 0U;
     }
     for (SimulatedCore& core : cores_) {
         core.clock_.advance_to(end);

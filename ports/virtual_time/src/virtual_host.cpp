@@ -5,25 +5,32 @@
 
 namespace mamori::ports::virtual_time {
 
+StepEnd VirtualHost::run_step(Pass pass, Duration duration, Instant deadline) const noexcept {
+    if (processor_ != nullptr && pass != Pass::kAction) {
+        return processor_->run_step(now_, duration, deadline);
+    }
+    // Written without the sum, which could overflow.
+    const bool is_in_time = duration != kNever && duration <= deadline - now_;
+    const Instant aborted = deadline > now_ ? deadline : now_;
+    return {is_in_time ? now_ + duration : aborted, is_in_time};
+}
+
 std::size_t VirtualHost::run_within(const Work& work, Instant deadline) noexcept {
-    const bool takes_time = work.pass != Pass::kAction;
     for (std::size_t i = 0U; i < work.count; ++i) {
         const std::size_t component = work.component + i;
-        const bool is_modelled = work.pass != Pass::kStateUpdate && component < durations_.size();
-        const Duration duration = is_modelled ? durations_[component] : Duration{0};
+        const Duration duration = work.pass != Pass::kStateUpdate ? get_duration(component) : Duration{0};
         MAMORI_REQUIRE(2, duration >= Duration{0});
-        // Written without the sum, which could overflow.
-        const bool is_in_time = duration != kNever && duration <= deadline - now_;
-        const Instant cut_off = deadline > now_ ? deadline : now_;
-        step_end_ = is_in_time ? now_ + duration : cut_off + Duration{1};
+        const StepEnd end = run_step(work.pass, duration, deadline);
+        step_end_ = end.is_in_time ? end.at : end.at + Duration{1};
         if (duration != kNever) {
             work.run(work.argument, work.first + i, work.first + i + 1U);
         }
-        if (!is_in_time) {
-            advance_to(takes_time ? cut_off : now_);
+        if (work.pass != Pass::kAction) {
+            advance_to(end.at);
+        }
+        if (!end.is_in_time) {
             return i;
         }
-        now_ = takes_time ? step_end_ : now_;
     }
     return work.count;
 }

@@ -15,7 +15,7 @@ from mamori_trace.base.errors import InputError
 from mamori_trace.base.json_node import HOW_TO_FIX, JsonNode
 from mamori_trace.base.text_file import read_text
 
-SCHEMA = "mamori.table/2"
+SCHEMA = "mamori.table/3"
 MAX_BYTES = 50_000_000
 WAYS = ("same_window", "later_window", "next_frame", "crossing", "queue")
 KINDS = ("periodic", "event_driven", "triggered", "invalid")
@@ -27,6 +27,9 @@ DIRECTIONS = ("in", "out")
 class Window:
     name: str
     core: int
+    """Number of the executive that runs it: the processor core, or a number of its own for the background windows of a core."""
+    background_of: int | None
+    """Processor core whose ordinary windows preempt it; None: an ordinary window."""
     partition: str
     kind: str
     offset_ns: int
@@ -94,7 +97,13 @@ class Table:
     findings: tuple[str, ...]
 
     def cores(self) -> list[int]:
-        return sorted({window.core for window in self.windows})
+        """Numbers of the executives; background windows after the ordinary windows of their core."""
+        keys = {(window.core if window.background_of is None else window.background_of, window.core) for window in self.windows}
+        return [core for _, core in sorted(keys)]
+
+    def core_title(self, core: int) -> str:
+        background_of = next(window.background_of for window in self.windows if window.core == core)
+        return f"core {core}" if background_of is None else f"background of core {background_of}"
 
     def windows_of(self, core: int) -> list[int]:
         """Indices of the windows of one core, sorted by their first start."""
@@ -167,6 +176,7 @@ def _read_window(node: JsonNode) -> Window:
     return Window(
         name=node.at("name").text(),
         core=node.at("core").count(),
+        background_of=node.at("background_of").whole_or_none(),
         partition=node.at("partition").text(),
         kind=node.at("kind").text(KINDS),
         offset_ns=node.at("offset_ns").whole(),

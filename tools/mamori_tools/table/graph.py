@@ -68,7 +68,7 @@ def _make_lines(table: Table) -> Iterator[str]:
 
 def _make_core(table: Table, core: int) -> Iterator[str]:
     windows = table.windows_of(core)
-    yield f"subgraph cluster_core_{core} {{ label={quote(f'core {core}')}; labelloc=t; labeljust=l; color=\"#5f6368\"; bgcolor=\"#f8f9fa\";"
+    yield f"subgraph cluster_core_{core} {{ label={quote(table.core_title(core))}; labelloc=t; labeljust=l; color=\"#5f6368\"; bgcolor=\"#f8f9fa\";"
     partitions = sorted({table.windows[index].partition for index in windows})
     for number, partition in enumerate(partitions):
         if partition:

@@ -21,12 +21,12 @@ RIGHT = frozenset({"offset", "length", "period", "budget", "within", "fresh with
 
 def make_lines(table: Table) -> Iterator[Line]:
     """The complete text, line by line, without line ends."""
-    yield f"frame {format_time(table.frame_ns)}, {_count(table.cores(), 'core')}, {_count(table.windows, 'window')}, " \
+    yield f"frame {format_time(table.frame_ns)}, {_count(_list_processors(table), 'core')}, {_count(table.windows, 'window')}, " \
           f"{_count(table.components, 'component')}, {_count(table.connections, 'connection')}", HEADING  # fmt: skip
     for core in table.cores():
         load = sum(table.windows[index].budget_ns / max(1, table.windows[index].period_ns) for index in table.windows_of(core))
         yield PLAIN, PLAIN
-        yield f"core {core}, budgets take {100 * load:.1f} %", HEADING
+        yield f"{table.core_title(core)}, budgets take {100 * load:.1f} %", HEADING
         yield from _align([WINDOW_COLUMNS, *(_window_cells(table, index) for index in table.windows_of(core))])
     if table.connections:
         yield PLAIN, PLAIN
@@ -40,6 +40,10 @@ def make_lines(table: Table) -> Iterator[Line]:
         yield from _align([("fault", "reaction", "within"), *_reaction_cells(table)])
     yield PLAIN, PLAIN
     yield from _findings(table)
+
+
+def _list_processors(table: Table) -> list[int]:
+    return sorted({window.core if window.background_of is None else window.background_of for window in table.windows})
 
 
 def _make_modes(table: Table) -> Iterator[Line]:

@@ -67,7 +67,7 @@ def _draw_core(drawing: Drawing, scale: _Scale, table: Table, core: int, y: floa
     """The lane of a core, and below it a row for each of its windows. @return position of the next lane."""
     indices = table.windows_of(core)
     drawing.box(MARGIN - 6, y, name_width + TIME_WIDTH + 12, LANE_HEIGHT, "#f1f3f4")
-    drawing.text(MARGIN, y + 20, f"core {core}", bold=True)
+    drawing.text(MARGIN, y + 20, table.core_title(core), bold=True)
     for place, index in enumerate(indices):
         row = y + LANE_HEIGHT + 4 + ROW_HEIGHT * place
         window = table.windows[index]

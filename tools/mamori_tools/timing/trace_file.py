@@ -59,7 +59,7 @@ def choose_cycles(run: Measurement, misses: Sequence[Miss]) -> Array:
 def list_tracks(run: Measurement, misses: Sequence[Miss]) -> list[Track]:
     """Tracks of the chosen cycles. Spans of one track do not overlap."""
     cycles = choose_cycles(run, misses)
-    tracks = [Track(f"windows of core {core}", _list_windows(run, core, cycles)) for core in sorted({one.core for one in run.table.windows})]
+    tracks = [Track(f"windows of {run.table.core_title(core)}", _list_windows(run, core, cycles)) for core in sorted({one.core for one in run.table.windows})]
     tracks += [Track(f"steps of window '{window.name}'", _list_steps(run, index, cycles)) for index, window in enumerate(run.table.windows)]
     if run.switches is not None:
         tracks += [Track(f"processor {log.processor}", _list_threads(run, core, cycles)) for core, log in enumerate(run.switches.cores)]

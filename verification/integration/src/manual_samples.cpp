@@ -53,6 +53,43 @@ static constexpr auto kValveSystem =
                    mamori::window("valve", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(valve)));
 MAMORI_CHECK(kValveSystem);
 
+}  // namespace real_time
+
+namespace background {
+
+class Wheel final : public mamori::Component {
+  public:
+    constexpr Wheel() noexcept : Component("wheel") {}
+    mamori::InPort<double> setpoint{*this, "setpoint"};
+    mamori::OutPort<double> speed{*this, "speed"};
+    using Ports = mamori::Ports<&Wheel::setpoint, &Wheel::speed>;
+};
+class Mapper final : public mamori::Component {
+  public:
+    constexpr Mapper() noexcept : Component("mapper") {}
+    mamori::InPort<double> speed{*this, "speed"};
+    mamori::OutPort<double> setpoint{*this, "setpoint"};
+    using Ports = mamori::Ports<&Mapper::speed, &Mapper::setpoint>;
+};
+static Wheel wheel;
+static Mapper mapper;
+
+static mamori::Crossing<double> to_map;
+static mamori::Crossing<double> to_drive;
+static constexpr auto kMapped = mamori::system(
+    mamori::frame(50_ms), mamori::publication_margin(200_us),
+    mamori::window("drive", 0_us, 300_us, mamori::every(1_ms), mamori::budget(250_us), mamori::run(wheel)),
+    mamori::window("map", 600_us, 49_ms, mamori::background(), mamori::budget(30_ms), mamori::run(mapper)),
+    mamori::connect(wheel.speed, mapper.speed, mamori::through(to_map), mamori::any_age()),
+    mamori::connect(mapper.setpoint, wheel.setpoint, mamori::through(to_drive), mamori::any_age()));
+
+MAMORI_CHECK(kMapped);
+static mamori::ports::posix_rt::Machine<kMapped> machine;
+
+}  // namespace background
+
+namespace real_time {
+
 class Drive final : public mamori::Devices {
     void sample(std::uint64_t, mamori::Instant) noexcept override { /* read the encoders */ }
     void apply(std::uint64_t, mamori::Instant, mamori::Duration) noexcept override { /* send the torques */ }

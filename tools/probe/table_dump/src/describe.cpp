@@ -54,11 +54,15 @@ std::string describe_window(const Finding& finding, const SystemView& view) {
             return "it overlaps window " + quote(get_window_name(view, finding.other)) + " on core " +
                    std::to_string(row.core);
         case Rule::kBudgetExceedsWindow:
-            return "its budget of " + format(row.budget) + " is not in 1 ns .. its length of " +
+            return "its budget of " + format(get_declared_budget(row)) + " is not in 1 ns .. its length of " +
                    format(row.length);
         case Rule::kWorstCasesExceedBudget:
-            return "the worst cases of its components are longer than its budget of " + format(row.budget) +
-                   ": " + describe_worst_cases(view, row);
+            return "the worst cases of its components are longer than its budget of " +
+                   format(get_declared_budget(row)) + ": " + describe_worst_cases(view, row);
+        case Rule::kBackgroundTooSlow:
+            return "its budget of " + format(row.execution_budget) + " does not fit into its length of " +
+                   format(row.length) + " with the windows of core " + std::to_string(row.background_of) +
+                   " that preempt it and the publication margin of " + format(view.publication_margin);
         case Rule::kRateNotOccurrences:
             return "its rate of " + format_rate(row.rate_hz) + " does not match its window starts, every " +
                    format(row.period);
@@ -131,10 +135,10 @@ std::string describe_wiring(const Finding& finding, const SystemView& view) {
             return connection + " leaves its core or partition without a Crossing or a queue";
         case Rule::kCrossingUsedTwice:
             return connection + " uses the Crossing of " + quote(get_connection_name(view, finding.other));
-        case Rule::kCrossingNotOrdered:
+        case Rule::kHistoryTooShort:
             return connection + ": window " + quote(get_window_name(view, row.sink_window)) +
-                   " can start while window " + quote(get_window_name(view, row.source_window)) +
-                   " on another core runs";
+                   " may start when window " + quote(get_window_name(view, row.source_window)) +
+                   " has published two newer values";
         case Rule::kMarginNotKept:
             return connection + ": window " + quote(get_window_name(view, row.sink_window)) +
                    " may start within the publication margin of " + format(view.publication_margin) +
@@ -178,6 +182,7 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kWindowOutsideFrame:
         case Rule::kWindowsOverlap:
         case Rule::kBudgetExceedsWindow:
+        case Rule::kBackgroundTooSlow:
         case Rule::kWorstCasesExceedBudget:
         case Rule::kRateNotOccurrences:
         case Rule::kRateNotReachable:
@@ -211,7 +216,7 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kDelayNotStated:
         case Rule::kCrossingWithoutBuffer:
         case Rule::kCrossingUsedTwice:
-        case Rule::kCrossingNotOrdered:
+        case Rule::kHistoryTooShort:
         case Rule::kMarginNotKept:
             return describe_wiring(finding, view);
         case Rule::kFaultDeclaredTwice:

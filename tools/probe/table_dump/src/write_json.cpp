@@ -19,7 +19,7 @@ using json::quote;
 using json::quote_enumerator;
 using json::write_rows;
 
-constexpr const char* kSchema = "mamori.table/2";
+constexpr const char* kSchema = "mamori.table/3";
 
 const char* get_name(ExecutionKind kind) {
     switch (kind) {
@@ -36,15 +36,16 @@ const char* get_name(ExecutionKind kind) {
 std::string make_window(const SystemView& view, std::size_t index) {
     const WindowRow& row = view.windows[index];
     std::string slower;
-    for (std::size_t i = 0U; i < std::min(row.alternative_count, kAlternativeRateMax); ++i) {
+    for (std::size_t i = 0U; i < std::min<std::size_t>(row.alternative_count, kAlternativeRateMax); ++i) {
         slower += (i == 0U ? "" : ", ") + std::to_string(row.alternative_periods[i].ns);
     }
     return "{\"name\": " + quote(to_text(row.name)) + ", \"core\": " + std::to_string(row.core) +
+           ", \"background_of\": " + (is_background(row) ? std::to_string(row.background_of) : "null") +
            ", \"partition\": " + quote(to_text(row.partition)) + ", \"kind\": \"" + get_name(row.kind) +
            "\", \"offset_ns\": " + std::to_string(row.offset.ns) +
            ", \"length_ns\": " + std::to_string(row.length.ns) +
            ", \"period_ns\": " + std::to_string(row.period.ns) +
-           ", \"budget_ns\": " + std::to_string(row.budget.ns) +
+           ", \"budget_ns\": " + std::to_string(get_declared_budget(row).ns) +
            ", \"rate_hz\": " + (row.has_rate ? format_number(row.rate_hz) : "null") +
            ", \"slower_periods_ns\": [" + slower + "], \"events_per_cycle\": " +
            (row.kind == ExecutionKind::kEventDriven ? std::to_string(row.events_per_cycle) : "null") + "}";

@@ -115,9 +115,7 @@ TEST_F(DescribeTest, WindowsAreNamedWithTheTimesThatDisagree) {
     EXPECT_EQ(
         describe_table(),
         (Sentences{"window 'sense': its period of 3 ms does not divide the major frame of 10 ms",
-                   "window 'plan': it starts at 3 ms for 8 ms and is not inside its period of 10 ms",
-                   "connection 'monitor.out -> planner.in': window 'plan' can start while window 'sense' "
-                   "on another core runs"}));
+                   "window 'plan': it starts at 3 ms for 8 ms and is not inside its period of 10 ms"}));
 }
 
 TEST_F(DescribeTest, OverlappingWindowsAreBothNamed) {
@@ -144,6 +142,28 @@ TEST_F(DescribeTest, ABudgetIsComparedWithItsWindow) {
     table_.windows[0].budget = 201_us;
     EXPECT_EQ(describe_table(), Sentences{"window 'sense': its budget of 201 us is not in 1 ns .. its length "
                                           "of 200 us"});
+}
+
+TEST_F(DescribeTest, ABackgroundWindowIsComparedWithTheWindowsThatPreemptIt) {
+    verifies("SWR-TAB-003");
+    const auto check_budget = [](Duration limit, Duration length) {
+        return describe_elements(make_view(
+            system(frame(10_ms), window("sense", 0_us, 500_us, every(1_ms), budget(400_us), run(g_encoder)),
+                   window("plan", 0_us, length, background(), budget(limit), run(g_second_encoder)))));
+    };
+    EXPECT_EQ(check_budget(6_ms, 9_ms),
+              Sentences{"window 'plan': its budget of 6 ms does not fit into its length of 9 ms with the "
+                        "windows of core 0 that preempt it and the publication margin of 0 ns"});
+    EXPECT_EQ(check_budget(6_ms, 5_ms),
+              Sentences{"window 'plan': its budget of 6 ms is not in 1 ns .. its length of 5 ms"});
+}
+
+TEST_F(DescribeTest, AReaderWhoseValueMayBeOverwrittenIsNamedWithItsWriter) {
+    verifies("SWR-TAB-003");
+    table_.publication_margin = 10_ms;
+    EXPECT_EQ(describe_table().front(),
+              "connection 'monitor.out -> planner.in': window 'plan' may start when "
+              "window 'sense' has published two newer values");
 }
 
 TEST_F(DescribeTest, WorstCasesAreListedByComponent) {

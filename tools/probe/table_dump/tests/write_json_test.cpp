@@ -53,19 +53,33 @@ TEST(WriteJsonTest, WindowsContainTimesRatesAndIndices) {
     verifies("SWR-TAB-001");
     const json table = dump(make_view(kSystem));
 
-    EXPECT_EQ(table["schema"], "mamori.table/2");
+    EXPECT_EQ(table["schema"], "mamori.table/3");
     EXPECT_EQ(table["frame_ns"], 10'000'000);
     EXPECT_EQ(table["abort_policy"], "spec_only");
     ASSERT_EQ(table["windows"].size(), 3U);
     EXPECT_EQ(table["windows"][0],
-              json::parse(R"({"name": "sense", "core": 0, "partition": "", "kind": "periodic",
-        "offset_ns": 0, "length_ns": 200000, "period_ns": 1000000, "budget_ns": 150000, "rate_hz": 1000.0,
+              json::parse(R"({"name": "sense", "core": 0, "background_of": null, "partition": "",
+        "kind": "periodic", "offset_ns": 0, "length_ns": 200000, "period_ns": 1000000, "budget_ns": 150000, "rate_hz": 1000.0,
         "slower_periods_ns": [2000000], "events_per_cycle": null})"));
     EXPECT_EQ(table["windows"][2]["partition"], "open");
     EXPECT_EQ(table["windows"][2]["kind"], "event_driven");
     EXPECT_EQ(table["windows"][2]["core"], 1);
     EXPECT_EQ(table["windows"][2]["events_per_cycle"], 3);
     EXPECT_TRUE(table["windows"][2]["rate_hz"].is_null());
+}
+
+TEST(WriteJsonTest, ABackgroundWindowContainsItsCoreAndItsProcessorTime) {
+    verifies("SWR-TAB-001");
+    const auto system_with_background =
+        system(frame(10_ms), window("loop", 0_ms, 1_ms, core(1), budget(1_ms), run(g_encoder)),
+               window("plan", 0_ms, 9_ms, core(1), background(), budget(3_ms), run(g_planner)));
+
+    const json table = dump(make_view(system_with_background));
+
+    EXPECT_TRUE(table["windows"][0]["background_of"].is_null());
+    EXPECT_EQ(table["windows"][1]["background_of"], 1);
+    EXPECT_EQ(table["windows"][1]["core"], 2);
+    EXPECT_EQ(table["windows"][1]["budget_ns"], 3'000'000);
 }
 
 TEST(WriteJsonTest, ComponentsContainTheirWindowWorstCaseAndPorts) {

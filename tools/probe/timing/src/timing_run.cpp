@@ -16,6 +16,7 @@
 #include <thread>
 #include <utility>
 
+#include "mamori/kernel/run/executives.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
 #include "mamori/table_dump/table_dump.hpp"
 #include "mamori/timing/introspection_load.hpp"
@@ -112,7 +113,7 @@ struct CoreSession {
     Right priority{};
     Right processor{};
     Right switch_right{};
-    int processor_number{0};
+    ThreadPlace runner_place{};
     std::size_t window_count{0U};  ///< windows
 };
 
@@ -206,16 +207,44 @@ double get_memory() {
     return 0.5 * static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+std::size_t find_background_of(const TimedCore& core) {
+    return mamori::detail::find_background_of(core.executive.get_view(), core.executive.get_core());
+}
+
+std::size_t count_ordinary(const std::vector<TimedCore>& cores, std::size_t end) {
+    return static_cast<std::size_t>(
+        std::count_if(cores.begin(), cores.begin() + static_cast<std::ptrdiff_t>(end),
+                      [](const TimedCore& core) { return find_background_of(core) == kNoIndex; }));
+}
+
+/// Place of the runner of a core. Background windows run on the processor of their core, and their runner
+/// below the ordinary windows.
+ThreadPlace calc_place(const std::vector<TimedCore>& cores, std::size_t index, const TimingOptions& options,
+                       const std::vector<int>& processors) {
+    const std::size_t background_of = find_background_of(cores[index]);
+    if (background_of == kNoIndex) {
+        return {options.priority, processors[count_ordinary(cores, index)]};
+    }
+    const auto ordinary = std::find_if(cores.begin(), cores.end(), [background_of](const TimedCore& core) {
+        return core.executive.get_core() == background_of;
+    });
+    const auto place = static_cast<std::size_t>(std::distance(cores.begin(), ordinary));
+    return {options.priority - kPriorityGap - 1,
+            ordinary == cores.end() ? processors.front() : processors[count_ordinary(cores, place)]};
+}
+
 std::string check(const std::vector<TimedCore>& cores, const TimingOptions& options,
                   const std::vector<int>& processors) {
-    if (cores.empty() || options.cycles == 0U || options.out.empty() || options.priority <= kPriorityGap ||
+    const std::size_t ordinary_count = count_ordinary(cores, cores.size());
+    const int priority_min = kPriorityGap + (ordinary_count < cores.size() ? 3 : 1);
+    if (cores.empty() || options.cycles == 0U || options.out.empty() || options.priority < priority_min ||
         options.priority > 99) {
         return "a timing run requires a core, at least one cycle, a folder for its results, and a priority "
-               "of "
-               "11 .. 99";
+               "of " +
+               std::to_string(priority_min) + " .. 99";
     }
-    if (cores.size() > processors.size()) {
-        return "the system has " + std::to_string(cores.size()) + " cores, and this process may use " +
+    if (ordinary_count > processors.size()) {
+        return "the system has " + std::to_string(ordinary_count) + " cores, and this process may use " +
                std::to_string(processors.size()) +
                " processor(s): permit more (taskset, container limits) or use another host";
     }
@@ -247,9 +276,9 @@ void run_core(CoreSession& core, const FrameClock& clock, std::uint64_t cycles, 
 }
 
 /// @return false if no threads are available for the windows; threads that were started have ended.
-bool open_guards(Session& session, int runner_priority) {
+bool open_guards(Session& session) {
     for (std::size_t i = 0U; i < session.cores.size(); ++i) {
-        if (session.cores[i]->guard.open(runner_priority) != Status::kOk) {
+        if (session.cores[i]->guard.open(session.cores[i]->runner_place.priority) != Status::kOk) {
             for (std::size_t opened = 0U; opened < i; ++opened) {
                 static_cast<void>(session.cores[opened]->guard.close());
             }
@@ -280,7 +309,7 @@ bool close_guards(Session& session) {
 }
 
 /// @throw std::system_error if no thread is available; threads that were started have ended.
-void run_all(Session& session, const TimingOptions& options, const std::vector<int>& processors) {
+void run_all(Session& session, const TimingOptions& options) {
     std::vector<std::thread> threads;
     const auto join = [&threads] {
         for (std::thread& thread : threads) {
@@ -290,7 +319,7 @@ void run_all(Session& session, const TimingOptions& options, const std::vector<i
     try {
         for (std::size_t i = 0U; i < session.cores.size(); ++i) {
             threads.emplace_back(run_core, std::ref(*session.cores[i]), std::cref(*session.clock),
-                                 options.cycles, ThreadPlace{options.priority, processors[i]});
+                                 options.cycles, session.cores[i]->runner_place);
         }
     } catch (const std::system_error&) {
         for (const std::unique_ptr<CoreSession>& core : session.cores) {
@@ -309,7 +338,8 @@ SwitchFacts collect_switches(const Session& session) {
     for (const std::unique_ptr<CoreSession>& core : session.cores) {
         // The log covers one processor, so the threads must be bound to it.
         const Right bound = combine(core->processor, core->guard.get_processor_right());
-        CoreSwitches one{&core->switches, combine(core->switch_right, bound), core->processor_number, {}};
+        CoreSwitches one{
+            &core->switches, combine(core->switch_right, bound), core->runner_place.processor, {}};
         for (std::size_t window = 0U; window < core->window_count; ++window) {
             one.window_threads.push_back(core->host.get_thread(window));
         }
@@ -372,7 +402,13 @@ std::unique_ptr<Session> make_session(const std::vector<TimedCore>& cores, const
         session->block_cycles = static_cast<std::uint64_t>(block_cycles);
     }
     for (std::size_t i = 0U; i < cores.size(); ++i) {
-        const ThreadPlace place{options.priority - kPriorityGap, processors[i]};
+        const ThreadPlace runner = calc_place(cores, i, options, processors);
+        const int gap = runner.priority == options.priority ? kPriorityGap : 1;
+        const ThreadPlace place{runner.priority - gap, runner.processor};
+        const Span<const WindowRow> windows = cores[i].executive.get_view().windows;
+        for (std::size_t w = 0U; w < windows.size(); ++w) {
+            static_cast<void>(cores[i].threads[w].set_execution_budget(windows[w].execution_budget));
+        }
         session->cores.push_back(std::make_unique<CoreSession>(cores[i], *session->logs[i], *session->clock,
                                                                place, i == 0U ? session->load.get() : nullptr,
                                                                Duration{block_cycles * frame.ns}));
@@ -380,9 +416,9 @@ std::unique_ptr<Session> make_session(const std::vector<TimedCore>& cores, const
         if (options.get_state) {
             core.host.set_state_source(options.get_state);
         }
-        core.window_count = cores[i].executive.get_view().windows.size();
-        core.processor_number = processors[i];
-        core.switch_right = core.switches.open(processors[i], *session->clock);
+        core.window_count = windows.size();
+        core.runner_place = runner;
+        core.switch_right = core.switches.open(runner.processor, *session->clock);
     }
     return session;
 }
@@ -417,11 +453,11 @@ TimingResult measure(const std::vector<TimedCore>& cores, const TimingOptions& o
     const Right memory = ports::posix_rt::lock_memory(kStackSize);
     const Duration reference = measure_reference(FrameClock::starting_in(Duration{0}));
     std::unique_ptr<Session> session = make_session(cores, options, processors);
-    if (!open_guards(*session, options.priority)) {
+    if (!open_guards(*session)) {
         return {TimingOutcome::kFailed, "no threads for the windows: raise the limit (ulimit -u)"};
     }
     watch_continuations();
-    run_all(*session, options, processors);
+    run_all(*session, options);
     const bool is_closed = close_guards(*session);
     for (const std::unique_ptr<CoreSession>& core : session->cores) {
         core->host.finish();

@@ -408,5 +408,61 @@ TEST_F(TimingRunTest, MoreCoresThanProcessorsAreRejected) {
     EXPECT_EQ(first_.run_count, 0);
 }
 
+/// Binds the calling thread, and the threads that it starts, to the first processor that it may use.
+class OneProcessor final {
+  public:
+    OneProcessor() {
+        static_cast<void>(sched_getaffinity(0, sizeof(before_), &before_));
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        for (std::size_t processor = 0U; CPU_COUNT(&one) == 0; ++processor) {
+            if (CPU_ISSET(processor, &before_)) {
+                CPU_SET(processor, &one);
+            }
+        }
+        static_cast<void>(sched_setaffinity(0, sizeof(one), &one));
+    }
+    OneProcessor(const OneProcessor&) = delete;
+    OneProcessor& operator=(const OneProcessor&) = delete;
+    ~OneProcessor() { static_cast<void>(sched_setaffinity(0, sizeof(before_), &before_)); }
+
+  private:
+    cpu_set_t before_{};
+};
+
+TEST(TimingBackgroundTest, BackgroundWindowsRunBelowTheOrdinaryOnesOnTheProcessorOfTheirCore) {
+    verifies("SWR-PRT-084", Technique::kBoundaryValues, Polarity::kViolation);
+    static Worker loop{"loop"};
+    static Worker plan{"plan"};
+    static constexpr auto kTable =
+        system(frame(20_ms), window("plan", 0_ms, 20_ms, background(), budget(5_ms), run(plan)),
+               window("loop", 0_ms, 2_ms, every(5_ms), budget(2_ms), run(loop)));
+    static ExecutiveFor ordinary{kTable};
+    static ExecutiveFor background_windows{kTable, 1U};
+    static std::array<WindowThread, 2U> threads;
+    static std::array<WindowThread, 2U> background_threads;
+    for (Executive* executive :
+         {static_cast<Executive*>(&ordinary), static_cast<Executive*>(&background_windows)}) {
+        ASSERT_EQ(executive->initialize(), Status::kOk);
+    }
+    ASSERT_EQ(ordinary.start(), Status::kOk);
+    ASSERT_EQ(background_windows.start(), Status::kOk);
+    TimingOptions options{3U, ::testing::TempDir() + "timing_background_test", 12, {}, {}};
+    // The core of a background window may follow it.
+    const std::vector<TimedCore> cores{{background_windows, background_threads}, {ordinary, threads}};
+    const OneProcessor one;
+
+    const TimingResult refused = run_timing(cores, options);
+    EXPECT_EQ(refused.outcome, TimingOutcome::kRefused);
+    EXPECT_NE(refused.message.find("13 .. 99"), std::string::npos) << refused.message;
+    options.priority = 13;
+    const TimingResult whole = run_timing(cores, options);
+
+    ASSERT_EQ(whole.outcome, TimingOutcome::kWhole) << whole.message;
+    EXPECT_EQ(read_row_count(options.out + "/openings.npy"), 15U);
+    EXPECT_EQ(plan.run_count, 3);
+    EXPECT_EQ(loop.run_count, 12);
+}
+
 }  // namespace
 }  // namespace mamori::timing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// All executives of one system: one for each core of its table, and the SystemModes that they share.
+/// All executives of one system: one for each core of its table, one for the background windows of each core
+/// that has some, and the SystemModes that they share.
 ///
 /// @satisfies SWR-KRN-074      Design: docs/design/kernel.md#machine
 #ifndef MAMORI_KERNEL_EXECUTIVES_HPP
@@ -24,11 +25,31 @@ namespace mamori {
 
 namespace detail {
 
-/// @return number of the highest core with a window, plus one.
+/// @return number of executives: that of the highest core with a window, plus one.
 constexpr std::size_t count_cores(const SystemView& view) noexcept {
     std::size_t count = 0U;
     for (const WindowRow& window : view.windows) {
         count = window.core < count ? count : window.core + 1U;
+    }
+    return count;
+}
+
+/// @return processor core whose background windows executive `core` runs; kNoIndex: it runs ordinary windows.
+constexpr std::size_t find_background_of(const SystemView& view, std::size_t core) noexcept {
+    for (const WindowRow& window : view.windows) {
+        if (window.core == core) {
+            return window.background_of;
+        }
+    }
+    return kNoIndex;
+}
+
+/// @return number of executives of ordinary windows, of a table that system() has made.
+constexpr std::size_t count_processors(const SystemView& view) noexcept {
+    std::size_t count = 0U;
+    for (const WindowRow& window : view.windows) {
+        const std::size_t core = is_background(window) ? window.background_of : window.core;
+        count = core < count ? count : core + 1U;
     }
     return count;
 }

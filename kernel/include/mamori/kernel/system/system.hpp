@@ -144,6 +144,7 @@ constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
     builder.table.modes.mode_enumeration = Modes::kTag;
     (detail::add_part(builder, parts), ...);
     builder.table.configuration = builder.configuration.finish();
+    detail::resolve_background(builder.table);
     detail::resolve_connections(builder.table);
     detail::resolve_modes(builder.table);
     detail::sort_connections(builder.table);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Options of a window: its budget, period, core, partition and trigger. Each option is defined next to the
-/// function that writes it to the row.
+/// Options of a window: its budget, period, core, class, partition and trigger. Each option is defined next
+/// to the function that writes it to the row.
 ///
-/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-017, SWR-KRN-080      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_OPTION_HPP
 #define MAMORI_KERNEL_WINDOW_OPTION_HPP
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/context_plan.hpp"
@@ -45,6 +47,15 @@ constexpr Core core(std::size_t index) noexcept {
     return {index};
 }
 
+/// Made by background().
+struct Background {};
+/// The window may overlap ordinary windows of its core, which preempt it; background windows of one core are
+/// disjoint. Its budget(...) is processor time, and its window end is its deadline. Values pass between both
+/// classes through a Crossing or a queue, as between cores.
+constexpr Background background() noexcept {
+    return {};
+}
+
 /// Made by partition().
 struct Partition {
     const char* name;
@@ -70,7 +81,7 @@ struct EventDriven {
     std::size_t events_per_cycle;
 };
 /// The window processes the events of its state machines (kind EVENT_DRIVEN).
-/// @param[in] events_per_cycle maximum for each state machine in one window instance, >= 1.
+/// @param[in] events_per_cycle maximum for each state machine in one window instance, 1 .. 65535.
 constexpr EventDriven event_driven(std::size_t events_per_cycle) noexcept {
     return {events_per_cycle};
 }
@@ -86,6 +97,10 @@ constexpr void apply(WindowRow& row, Every option) noexcept {
 constexpr void apply(WindowRow& row, Core option) noexcept {
     row.core = option.index;
 }
+/// system() completes the row.
+constexpr void apply(WindowRow& row, Background) noexcept {
+    row.background_of = 0U;
+}
 constexpr void apply(WindowRow& row, Partition option) noexcept {
     row.partition = option.name;
 }
@@ -95,7 +110,9 @@ constexpr void apply(WindowRow& row, TriggeredBy option) noexcept {
 }
 constexpr void apply(WindowRow& row, EventDriven option) noexcept {
     row.kind = ExecutionKind::kEventDriven;
-    row.events_per_cycle = option.events_per_cycle;
+    // A number out of range becomes 0, which the table check rejects.
+    const bool is_in_range = option.events_per_cycle <= std::numeric_limits<std::uint16_t>::max();
+    row.events_per_cycle = static_cast<std::uint16_t>(is_in_range ? option.events_per_cycle : 0U);
 }
 
 }  // namespace detail

@@ -56,7 +56,7 @@ template <std::size_t kCount>
 constexpr void apply(WindowRow& row, const Rates<kCount>& option) noexcept {
     row.has_rate = true;
     row.rate_hz = option.values[0].hz;
-    row.alternative_count = kCount - 1U;
+    row.alternative_count = static_cast<std::uint8_t>(kCount - 1U);
     for (std::size_t i = 1U; i < kCount; ++i) {
         row.alternative_periods[i - 1U] = to_period(option.values[i]);
     }

@@ -40,8 +40,9 @@
 #define MAMORI_TABLE_RULES(X)                                                                              \
     X(FrameNotPositive, FrameIsPositive, Row, "a frame has a positive length")                             \
     X(WindowRowInvalid, WindowRowIsValid, Row,                                                             \
-      "a window has a name, a positive period and components, at least one event per cycle, a trigger "    \
-      "exactly when it is triggered, slower rates only when it is periodic, and the rows that name it")    \
+      "a window has a name, a positive period and components, 1 .. 65535 events per cycle, a trigger "     \
+      "exactly when it is triggered, slower rates only when it is periodic, an executive of its class, "   \
+      "and the rows that name it")                                                                         \
     X(ComponentRowInvalid, WorstCaseIsNotNegative, Component,                                              \
       "the declared worst case of a component is not negative; its row has its window, ports and "         \
       "connections")                                                                                       \
@@ -55,9 +56,13 @@
     X(PeriodNotInFrame, PeriodDividesFrame, Window, "the period of a window divides the frame")            \
     X(WindowOutsideFrame, WindowIsInsideItsPeriod, Window,                                                 \
       "a window starts and ends within its period, at most the frame")                                     \
-    X(WindowsOverlap, WindowsAreDisjoint, TwoWindows, "windows of one core never overlap")                 \
+    X(WindowsOverlap, WindowsAreDisjoint, TwoWindows,                                                      \
+      "windows of one core never overlap, except a background window and an ordinary window")              \
     X(BudgetExceedsWindow, BudgetIsInsideWindow, Window,                                                   \
       "the budget of a window is positive and not longer than the window")                                 \
+    X(BackgroundTooSlow, BackgroundWindowCanComplete, Window,                                              \
+      "the budget of a background window, the budgets of the windows that preempt it meanwhile and the "   \
+      "publication margin end within its length plus the margin")                                          \
     X(WorstCasesExceedBudget, WorstCasesFitBudget, Window,                                                 \
       "the declared worst cases of a window together fit into its budget")                                 \
     X(RateNotOccurrences, RateEqualsOccurrences, Window,                                                   \
@@ -93,8 +98,9 @@
     X(CrossingWithoutBuffer, InputFromElsewhereHasACrossing, Sink,                                         \
       "a connection between cores or partitions goes through(...) a Crossing, or to a queue")              \
     X(CrossingUsedTwice, InputHasACrossingOfItsOwn, Sink, "a Crossing serves one connection")              \
-    X(CrossingNotOrdered, ReaderStartsOutsideWritersWindow, Sink,                                          \
-      "a latest value crosses cores between the end of its writer's window and the next start of it")      \
+    X(HistoryTooShort, ReaderStartsBeforeValueIsOverwritten, Sink,                                         \
+      "a reader on another core or of another class starts, with its delay by preemption and the "         \
+      "publication margin, before the second window start of its writer after the publication")            \
     X(MarginNotKept, ReaderStartsAfterPublicationMargin, Sink,                                             \
       "a reader on another core starts at least publication_margin(...) after the end of its writer's "    \
       "window; the margin is not negative")                                                                \

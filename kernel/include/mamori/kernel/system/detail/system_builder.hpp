@@ -2,7 +2,7 @@
 /// @file
 /// Writes the parts of a description to the rows of a table, for system(). Not for users.
 ///
-/// @satisfies SWR-KRN-017      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-017, SWR-KRN-080      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_SYSTEM_BUILDER_HPP
 #define MAMORI_KERNEL_SYSTEM_BUILDER_HPP
 
@@ -98,6 +98,32 @@ struct TableBuilder {
     }
     constexpr void add(AbortPolicy policy) noexcept { table.abort_policy = policy; }
 };
+
+/// Gives the background windows of each core an executive of their own. Call after the last window.
+template <typename Table>
+constexpr void resolve_background(Table& table) noexcept {
+    std::size_t next = 0U;
+    for (const WindowRow& row : table.windows) {
+        next = row.core < next ? next : row.core + 1U;
+    }
+    for (std::size_t i = 0U; i < table.windows.size(); ++i) {
+        WindowRow& row = table.windows[i];
+        if (!is_background(row)) {
+            continue;
+        }
+        row.background_of = row.core;
+        row.execution_budget = row.budget;
+        row.budget = row.length;
+        row.core = next;
+        for (std::size_t j = 0U; j < i; ++j) {
+            if (table.windows[j].background_of == row.background_of) {
+                row.core = table.windows[j].core;
+                break;
+            }
+        }
+        next = row.core == next ? next + 1U : next;
+    }
+}
 
 }  // namespace mamori::detail
 

@@ -3,7 +3,7 @@
 /// Rules of connections: both ends are in the table, a value can be fresh, and a connection that leaves a
 /// core or a partition uses dedicated storage in a valid order. Not for users.
 ///
-/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-047, SWR-KRN-048, SWR-KRN-051, SWR-KRN-061
+/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-047, SWR-KRN-048, SWR-KRN-051, SWR-KRN-061, SWR-KRN-082
 /// Design:   docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_CONNECTION_CHECK_HPP
 #define MAMORI_KERNEL_CONNECTION_CHECK_HPP
@@ -14,6 +14,7 @@
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/table/detail/finding_list.hpp"
 #include "mamori/kernel/table/detail/opening_distance.hpp"
+#include "mamori/kernel/table/detail/response_time.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 #include "mamori/kernel/table/table_index.hpp"
 
@@ -28,8 +29,8 @@ constexpr void check_crossing(const SystemView& view, std::size_t i, FindingList
     if ((leaves_core || leaves_partition) && !row.operations.may_leave_core) {
         findings.add(Rule::kCrossingWithoutBuffer, i);
     }
-    if (leaves_core && row.operations.is_latest && calc_distance(writer, reader) < writer.length) {
-        findings.add(Rule::kCrossingNotOrdered, i);
+    if (leaves_core && row.operations.is_latest && !is_history_sufficient(view, writer, reader)) {
+        findings.add(Rule::kHistoryTooShort, i);
     }
     if (leaves_core &&
         (view.publication_margin < Duration{0} || calc_age_min(writer, reader) < view.publication_margin)) {

@@ -3,7 +3,7 @@
 /// Checks each row of a system table on its own, before a rule uses its indices and pointers. Consistency
 /// between rows: range_check.hpp. Not for users.
 ///
-/// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-080      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_ROW_CHECK_HPP
 #define MAMORI_KERNEL_ROW_CHECK_HPP
 
@@ -47,6 +47,22 @@ constexpr bool is_plan_valid(const WindowRow& row) noexcept {
            (row.kind == ExecutionKind::kPeriodic || row.alternative_count == 0U);
 }
 
+/// Whether a background window has a core, a deadline at its end, and an executive that runs exactly the
+/// background windows of this core.
+constexpr bool is_class_valid(const SystemView& view, const WindowRow& row) noexcept {
+    if (!is_background(row)) {
+        return row.execution_budget == Duration{0};
+    }
+    for (const WindowRow& other : view.windows) {
+        const bool is_same_executive = other.core == row.core;
+        if (is_same_executive != (other.background_of == row.background_of) ||
+            (other.core == row.background_of && is_background(other))) {
+            return false;
+        }
+    }
+    return row.budget == row.length;
+}
+
 constexpr bool is_window_valid(const SystemView& view, const WindowRow& row) noexcept {
     return is_name(row.name) && row.partition != nullptr && row.period > Duration{0} &&
            row.component_count != 0U &&
@@ -54,7 +70,7 @@ constexpr bool is_window_valid(const SystemView& view, const WindowRow& row) noe
            is_range_in(row.first_port, row.port_count, view.ports.size()) &&
            is_order_in(view.latch_order, row.first_latch, row.latch_count, view.connections.size()) &&
            is_range_in(row.first_parameter, row.parameter_count, view.configuration.parameters.size()) &&
-           is_plan_valid(row);
+           is_plan_valid(row) && is_class_valid(view, row);
 }
 
 constexpr bool is_component_valid(const SystemView& view, std::size_t i) noexcept {

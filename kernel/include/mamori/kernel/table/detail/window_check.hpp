@@ -3,7 +3,7 @@
 /// Rules of windows: names, triggers, position in the major frame, execution times and rates of their
 /// components. Not for users.
 ///
-/// @satisfies SWR-KRN-018, SWR-KRN-025      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-081      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_CHECK_HPP
 #define MAMORI_KERNEL_WINDOW_CHECK_HPP
 
@@ -13,6 +13,7 @@
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/table/detail/finding_list.hpp"
 #include "mamori/kernel/table/detail/opening_distance.hpp"
+#include "mamori/kernel/table/detail/response_time.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 
 namespace mamori::detail {
@@ -46,8 +47,11 @@ constexpr void check_window_times(const SystemView& view, std::size_t i, Finding
         findings.add(Rule::kWindowOutsideFrame, i);
         return;
     }
-    if (row.budget <= Duration{0} || row.budget > row.length) {
+    const Duration budget = get_declared_budget(row);
+    if (budget <= Duration{0} || budget > row.length) {
         findings.add(Rule::kBudgetExceedsWindow, i);
+    } else if (is_background(row) && !can_complete(view, row)) {
+        findings.add(Rule::kBackgroundTooSlow, i);
     }
     for (std::size_t j = 0U; j < i; ++j) {
         const WindowRow& earlier = view.windows[j];
@@ -66,7 +70,7 @@ constexpr bool is_rate_of(double rate_hz, Duration period) noexcept {
 
 constexpr void check_window_load(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
     const WindowRow& row = view.windows[i];
-    Duration left = row.budget;
+    Duration left = get_declared_budget(row);
     for (std::size_t c = row.first_component; c < row.first_component + row.component_count; ++c) {
         const Duration worst_case = view.component_rows[c].worst_case;
         // Without a sum, which could overflow.

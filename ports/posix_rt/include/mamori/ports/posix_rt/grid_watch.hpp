@@ -3,7 +3,7 @@
 /// Independent schedule monitor. A thread that neither the runner nor its guard nor their timers can delay.
 /// It closes the outputs if a window does not start or end in time, or if the rate of the clock is wrong.
 ///
-/// @satisfies SWR-PRT-031, SWR-PRT-033, SWR-PRT-034, SWR-PRT-040, SWR-PRT-041
+/// @satisfies SWR-PRT-031, SWR-PRT-033, SWR-PRT-034, SWR-PRT-040, SWR-PRT-041, SWR-PRT-083
 ///     Design: docs/design/posix_rt.md#watch
 #ifndef MAMORI_PORTS_POSIX_RT_GRID_WATCH_HPP
 #define MAMORI_PORTS_POSIX_RT_GRID_WATCH_HPP
@@ -27,7 +27,8 @@
 namespace mamori::ports::posix_rt {
 
 /// Due time of the next action of the runner of one core. The runner advances this atomic instant at each
-/// start and end of a window.
+/// start and end of a window. For a background window, the due time is later by the difference of its length
+/// and its budget, because other windows can preempt it and its runner for this time.
 ///
 /// Thread safety: get_due() from any thread; the rest from the thread that runs the windows, expect() and
 ///                rest() also before and after it runs them. Time: O(windows) per window instance, no lock,

@@ -5,6 +5,7 @@
 /// So a budget is enforced without the help of the code that exceeds it, and a hang costs its window alone.
 ///
 /// @satisfies SWR-PRT-003, SWR-PRT-004, SWR-PRT-035, SWR-PRT-040, SWR-PRT-041, SWR-PRT-042, SWR-PRT-060
+/// @satisfies SWR-PRT-080
 ///     Design: docs/design/posix_rt.md#guard, docs/design/posix_rt.md#stacks
 #ifndef MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
 #define MAMORI_PORTS_POSIX_RT_GUARDED_HOST_HPP
@@ -40,6 +41,11 @@ class WindowThread final {
     ///            size in the ThreadPlace of the host.
     /// @return kOk; kPreconditionNotMet (the thread runs).
     Status set_stack_size(std::size_t size) noexcept;
+    /// Limits the processor time of each instance of the window, in addition to its deadline: for a
+    /// background window, which is preempted. Instances differ in their deadlines.
+    /// @param[in] budget WindowRow::execution_budget; 0 (initially): no limit.
+    /// @return kOk; kBadParameter (negative); kPreconditionNotMet (the thread runs).
+    Status set_execution_budget(Duration budget) noexcept;
     /// @return the size that was set [byte]; 0: that of the host.
     std::size_t get_stack_size() const noexcept { return stack_size_; }
 
@@ -47,6 +53,9 @@ class WindowThread final {
     friend class GuardedHost;
     static void* serve(void* argument) noexcept;
     void work_off() noexcept;
+    bool is_exhausted(std::int64_t used_ns) const noexcept {
+        return execution_budget_ > Duration{0} && used_ns > used_max_ns_;
+    }
     bool is_out() const noexcept { return done_.load(std::memory_order_acquire) != asked_; }
 
     const FrameClock* clock_{nullptr};
@@ -56,6 +65,8 @@ class WindowThread final {
     CrashStack crash_stack_{};
     WindowHost::Work work_{};
     Instant deadline_{};
+    Duration execution_budget_{};
+    std::int64_t used_max_ns_{0};          ///< processor time of the thread at the end of this budget
     std::uint32_t asked_{0U};              ///< pieces of work so far
     std::atomic<std::uint32_t> done_{0U};  ///< the last of them that has come back
     std::atomic<std::size_t> finished_count_{0U};
@@ -103,10 +114,10 @@ class GuardedHost final : public WindowHost {
 
     Instant get_now() const noexcept override { return clock_.get_now(); }
     Instant get_step_end() const noexcept override { return clock_.get_now(); }
-    /// Work that is not back by the deadline is cut off. Until it is back its thread has no fixed priority;
-    /// an ordinary thread runs in SCHED_IDLE, where the process may end that again. So a hang takes no time
-    /// from another window. When the calling thread is not above the windows (it has lost its priority, say),
-    /// all windows lose theirs: the guard comes first.
+    /// Work that is not back by the deadline, or that has exhausted its processor time, is aborted. Until it
+    /// is back its thread has no fixed priority; an ordinary thread runs in SCHED_IDLE, where the process may
+    /// end that again. So a hang takes no time from another window. When the calling thread is not above the
+    /// windows (it has lost its priority, say), all windows lose theirs: the guard comes first.
     std::size_t run_within(const Work& work, Instant deadline) noexcept override;
     bool has_returned(std::size_t window) const noexcept override { return !threads_[window].is_out(); }
 
@@ -114,6 +125,7 @@ class GuardedHost final : public WindowHost {
     Status start(WindowThread& thread) noexcept;
     Status start_all() noexcept;
     void stay_below(int runner_priority) noexcept;
+    Instant calc_next_look(const WindowThread& thread) const noexcept;
     void demote(WindowThread& thread) noexcept;
     void promote(WindowThread& thread) noexcept;
 

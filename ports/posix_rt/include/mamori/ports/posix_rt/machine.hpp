@@ -8,7 +8,8 @@
 ///
 /// The same program runs in virtual time with mamori::ports::virtual_time::Machine.
 ///
-/// @satisfies SWR-PRT-070, SWR-PRT-071, SWR-PRT-072, SWR-PRT-073, SWR-PRT-074, SWR-PRT-085
+/// @satisfies SWR-PRT-070, SWR-PRT-071, SWR-PRT-072, SWR-PRT-073, SWR-PRT-074, SWR-PRT-081, SWR-PRT-082
+/// @satisfies SWR-PRT-085
 ///     Design: docs/design/posix_rt.md#machine
 #ifndef MAMORI_PORTS_POSIX_RT_MACHINE_HPP
 #define MAMORI_PORTS_POSIX_RT_MACHINE_HPP
@@ -50,8 +51,15 @@ class Machine<kTable, std::index_sequence<kCores...>> final {
   public:
     explicit Machine(const MachineOptions& options = {}) noexcept
         : options_(options),
-          hosts_{GuardedHost{threads_[kCores], clock_, get_place(options, kCores)}...},
-          runners_{CoreRunner{executives_.get(kCores), hosts_[kCores], clock_}...} {}
+          hosts_{GuardedHost{threads_[kCores], clock_, get_window_place(options, kCores)}...},
+          runners_{CoreRunner{executives_.get(kCores), hosts_[kCores], clock_}...} {
+        for (auto& threads : threads_) {
+            for (std::size_t window = 0U; window < threads.size(); ++window) {
+                static_cast<void>(
+                    threads[window].set_execution_budget(kTable.windows[window].execution_budget));
+            }
+        }
+    }
     Machine(const Machine&) = delete;
     Machine& operator=(const Machine&) = delete;
     ~Machine() = default;
@@ -78,6 +86,7 @@ class Machine<kTable, std::index_sequence<kCores...>> final {
         const std::array<ActionGuard*, kCoreCount> guard_pointers{&guards[kCores]...};
         for (std::size_t core = 0U; core < kCoreCount; ++core) {
             runners_[core].set_observer(&beats[core]);
+            threads[core].place = get_place(options_, core, 0, options_.runner_stack);
         }
         return run_.run(
             {executives_, clock_, hosts_, runners_, beats, threads, guard_pointers, caller, kFirstCore},
@@ -109,12 +118,21 @@ class Machine<kTable, std::index_sequence<kCores...>> final {
     const MachineReport& get_report() const noexcept { return run_.get_report(); }
 
   private:
-    static ThreadPlace get_place(const MachineOptions& options, std::size_t core) noexcept {
-        const bool is_placed = core < options.processors.size();
+    /// @param[in] below steps of priority.
+    static ThreadPlace get_place(const MachineOptions& options, std::size_t core, int below,
+                                 std::size_t stack) noexcept {
+        const std::size_t background_of = mamori::detail::find_background_of(make_view(kTable), core);
+        const std::size_t place = background_of == kNoIndex ? core : background_of;
         // A priority out of range is rejected by run(); here, the difference must not overflow.
-        const bool is_valid = options.priority >= MachineOptions::kPriorityMin;
-        return {is_valid ? options.priority - MachineOptions::kPriorityStep : 0,
-                is_placed ? options.processors[core] : ThreadPlace::kAnyProcessor, options.window_stack};
+        const int priority = options.priority >= MachineOptions::kPriorityMin ? options.priority : 0;
+        const int steps = background_of == kNoIndex ? below : below + 2;
+        const int lower = priority - steps * MachineOptions::kPriorityStep;
+        return {lower > 0 ? lower : 0,
+                place < options.processors.size() ? options.processors[place] : ThreadPlace::kAnyProcessor,
+                stack};
+    }
+    static ThreadPlace get_window_place(const MachineOptions& options, std::size_t core) noexcept {
+        return get_place(options, core, 1, options.window_stack);
     }
 
     MachineOptions options_;

@@ -2,7 +2,7 @@
 /// @file
 /// What a machine in real time is told before a run, and what it reports after it.
 ///
-/// @satisfies SWR-PRT-070, SWR-PRT-073, SWR-PRT-085      Design: docs/design/posix_rt.md#machine
+/// @satisfies SWR-PRT-070, SWR-PRT-073, SWR-PRT-081, SWR-PRT-085      Design: docs/design/posix_rt.md#machine
 #ifndef MAMORI_PORTS_POSIX_RT_MACHINE_OPTIONS_HPP
 #define MAMORI_PORTS_POSIX_RT_MACHINE_OPTIONS_HPP
 
@@ -30,7 +30,9 @@ struct MachineOptions {
     /// calls and stores only, nothing that waits. Without a function, the system has no outputs.
     OutputGate outputs{};
     /// SCHED_FIFO priority of the threads that run the windows, kPriorityMin .. kPriorityMax. The windows run
-    /// kPriorityStep below, the schedule watch kPriorityStep above, and the watchdog above that.
+    /// kPriorityStep below, the schedule watch kPriorityStep above, and the watchdog above that. The threads
+    /// that run background windows are two steps below, and these windows three: at least
+    /// kBackgroundPriorityMin for a table with such windows.
     int priority{80};
     /// Processor of core 0, 1, ...; empty: any processor. Must outlive the machine.
     Span<const int> processors{};
@@ -60,6 +62,7 @@ struct MachineOptions {
 
     static constexpr int kPriorityStep = 5;
     static constexpr int kPriorityMin = kPriorityStep + 1;
+    static constexpr int kBackgroundPriorityMin = 3 * kPriorityStep + 1;
     static constexpr int kPriorityMax = 99 - 2 * kPriorityStep;
 };
 
@@ -95,6 +98,7 @@ struct MachineReport {
     Duration until_closed{0};    ///< from the handler of this signal to the closed outputs
     GridFinding finding{};       ///< of the schedule watch
     OpeningCounts openings{};    ///< of all runs and cores: sums, and the worst lateness
+    OpeningCounts background{};  ///< the same of the background windows, whose lateness contains preemption
     Duration longest_sample{0};  ///< of Devices::sample()
     Duration longest_apply{0};   ///< of Devices::apply()
     Right memory{};              ///< locked memory

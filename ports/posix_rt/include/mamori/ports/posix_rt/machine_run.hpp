@@ -72,6 +72,7 @@ class MachineGuard final : public ActionGuard {
 
 /// Thread that runs the windows of one core.
 struct RunnerThread {
+    ThreadPlace place{};
     CoreRunner* runner{nullptr};
     GridBeat* beat{nullptr};
     MachineRun* watched{nullptr};  ///< of the first core: serves the watchdog of this run; else nullptr
@@ -125,7 +126,7 @@ class MachineRun final : public StopListener {
                          std::uint64_t frames) noexcept;
     Status run_watched(const MachineParts& parts, const MachineOptions& options,
                        std::uint64_t frames) noexcept;
-    Status run_threads(const MachineParts& parts, const MachineOptions& options) noexcept;
+    Status run_threads(const MachineParts& parts) noexcept;
     Status start(const MachineParts& parts, int priority) noexcept;
     Status stop(const MachineParts& parts, int priority) noexcept;
     void collect(const MachineParts& parts) noexcept;

@@ -3,7 +3,7 @@
 /// Runs whole frames of a system in virtual time, with as many cores as it has, in lockstep with simulated
 /// devices: devices are sampled before the first window and advanced by one frame after the last.
 ///
-/// @satisfies SWR-VTM-003      Design: docs/design/conformance.md#lockstep
+/// @satisfies SWR-VTM-003, SWR-VTM-010      Design: docs/design/conformance.md#lockstep
 #ifndef MAMORI_PORTS_VIRTUAL_TIME_FRAME_RUNNER_HPP
 #define MAMORI_PORTS_VIRTUAL_TIME_FRAME_RUNNER_HPP
 
@@ -36,10 +36,12 @@ class SimulatedCore final {
     VirtualHost& clock_;
     WindowHost& host_;
     FrameSchedule schedule_;
+    const SimulatedCore* ordinary_{nullptr};  ///< whose windows preempt its windows; nullptr: none
 };
 
 /// Drives the executives of one system; frame n begins at n times the frame length. Openings of all cores are
-/// run in the order of their planned instants, which is all that the data flow depends on. All references
+/// run in the order of their planned instants, which is all that the data flow depends on. Ordinary windows
+/// preempt the background windows of their core. All references
 /// must outlive it, and no core's clock may be past the frame that is run next (own bug).
 ///
 /// Thread safety: none. Time: one frame per call, as fast as the host computes it.
@@ -47,8 +49,7 @@ class FrameRunner final {
   public:
     /// @param[in] cores at least one, all of the same system table.
     /// @param[in] first_frame number of the frame that is run first.
-    FrameRunner(Span<SimulatedCore> cores, Devices& devices, std::uint64_t first_frame = 0U) noexcept
-        : cores_(cores), devices_(devices), frame_count_(first_frame) {}
+    FrameRunner(Span<SimulatedCore> cores, Devices& devices, std::uint64_t first_frame = 0U) noexcept;
 
     /// Runs the next frame: each window opens at its instants, whatever happened in the one before.
     void run_frame() noexcept;
@@ -61,6 +62,7 @@ class FrameRunner final {
   private:
     /// Core whose next opening is the earliest.
     SimulatedCore& find_next() noexcept;
+    static WindowOutcome open(SimulatedCore& core, const FrameSchedule::Opening& opening) noexcept;
 
     Span<SimulatedCore> cores_;
     Devices& devices_;

@@ -26,6 +26,24 @@ namespace mamori::ports::virtual_time {
 /// Modelled execution time of a component that never returns.
 inline constexpr Duration kNever{std::numeric_limits<std::int64_t>::max()};
 
+/// End of a modelled step, or the instant at which it is aborted.
+struct StepEnd {
+    Instant at{};
+    bool is_in_time{false};
+};
+
+/// Model of a processor that does not execute work all the time.
+class ModelledProcessor {
+  public:
+    /// @param[in] from >= the last result. @param[in] duration >= 0, or kNever.
+    /// @return when a step ends that begins at `from` and takes `duration` of processor time, or when it is
+    ///         aborted: from `from` on, and at `deadline` at the latest if it has not passed.
+    virtual StepEnd run_step(Instant from, Duration duration, Instant deadline) noexcept = 0;
+
+  protected:
+    ~ModelledProcessor() = default;
+};
+
 /// Clock and execution-time model of one simulated core. Users construct a VirtualHostFor.
 ///
 /// Thread safety: none. Time: O(1) per call, O(components) to find a component. Memory: none of its own;
@@ -48,6 +66,10 @@ class VirtualHost : public WindowHost {
     /// Always: work that is cut off has returned, or never began.
     bool has_returned(std::size_t) const noexcept final { return true; }
 
+    /// @param[in] processor executes the work from now on, except actions outside windows; nullptr: one that
+    ///            executes nothing else. Must outlive its use.
+    void set_processor(ModelledProcessor* processor) noexcept { processor_ = processor; }
+
     /// Lets time pass without work. @param[in] instant not before get_now(); an earlier one is an own bug.
     void advance_to(Instant instant) noexcept;
 
@@ -57,6 +79,10 @@ class VirtualHost : public WindowHost {
     Status set_duration(const Component& component, Duration duration) noexcept;
     /// The same by the index of the component in the system table.
     Status set_duration(std::size_t component, Duration duration) noexcept;
+    /// @return its modelled execution time; 0 without one.
+    Duration get_duration(std::size_t component) const noexcept {
+        return component < durations_.size() ? durations_[component] : Duration{0};
+    }
 
   protected:
     constexpr VirtualHost(Span<Duration> durations, Span<Component* const> components) noexcept
@@ -64,8 +90,11 @@ class VirtualHost : public WindowHost {
     ~VirtualHost() = default;
 
   private:
+    StepEnd run_step(Pass pass, Duration duration, Instant deadline) const noexcept;
+
     Span<Duration> durations_;
     Span<Component* const> components_;
+    ModelledProcessor* processor_{nullptr};
     Instant now_{};
     Instant step_end_{};
 };

@@ -3,8 +3,8 @@
 /// Runs a system in real time for a number of major frames and writes the measurements for `mamori timing`.
 /// For hosts: link mamori::timing into your program and offer `timing --cycles N --out DIR [--requests]`.
 ///
-/// @satisfies SWR-TIM-002, SWR-TIM-003, SWR-TIM-005, SWR-TIM-041, SWR-TIM-046      Design:
-/// docs/design/timing.md#measured-run
+/// @satisfies SWR-PRT-084, SWR-TIM-002, SWR-TIM-003, SWR-TIM-005, SWR-TIM-041, SWR-TIM-046
+/// Design:   docs/design/timing.md#measured-run
 #ifndef MAMORI_TIMING_TIMING_RUN_HPP
 #define MAMORI_TIMING_TIMING_RUN_HPP
 
@@ -39,7 +39,9 @@ struct SystemState {
 struct TimingOptions {
     std::uint64_t cycles{60000U};  ///< major frames, > 0
     std::string out;               ///< folder of the results; is created
-    int priority{80};              ///< of SCHED_FIFO for runner threads; window threads get 10 less
+    /// Of SCHED_FIFO for runner threads; window threads get 10 less. Runners and windows of background
+    /// windows are below them.
+    int priority{80};
     /// Writes table.json to the given path; empty: the table without names. @return the error, or empty.
     std::function<std::string(const std::string&)> save_table{};
     /// Called after the run; returns notes for the readers of the times. Empty: none.
