@@ -112,10 +112,9 @@ TEST_F(DescribeTest, WindowsAreNamedWithTheTimesThatDisagree) {
     table_.windows[0].has_rate = false;
     table_.windows[0].alternative_count = 0U;
     table_.windows[1].offset = 3_ms;
-    EXPECT_EQ(
-        describe_table(),
-        (Sentences{"window 'sense': its period of 3 ms does not divide the major frame of 10 ms",
-                   "window 'plan': it starts at 3 ms for 8 ms and is not inside its period of 10 ms"}));
+    EXPECT_EQ(describe_table(),
+              (Sentences{"window 'sense': its period of 3 ms does not divide the major frame of 10 ms",
+                         "window 'plan': it starts at 3 ms for 8 ms and is not inside its period of 10 ms"}));
 }
 
 TEST_F(DescribeTest, OverlappingWindowsAreBothNamed) {

@@ -193,8 +193,9 @@ TEST_F(SaveJsonTest, AFileThatCannotBeWrittenIsNamedAndItsContentIsUnchanged) {
     verifies("SWR-TAB-002", Technique::kFaultInjection, Polarity::kViolation);
     const std::string missing = folder_ / "missing" / "table.json";
 
-    EXPECT_EQ(save_json(missing, make_view(kSystem)),
-              missing + ": the table cannot be written; check the folder, its permissions and the free space");
+    EXPECT_EQ(
+        save_json(missing, make_view(kSystem)),
+        missing + ": the table cannot be written; check the folder, its permissions and the free space");
     EXPECT_EQ(save_json(folder_, make_view(kSystem)),
               folder_.string() + ": is a folder; name the file for the table itself");
     EXPECT_TRUE(std::filesystem::is_empty(folder_));
