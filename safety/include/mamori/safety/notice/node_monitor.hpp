@@ -85,8 +85,7 @@ class NodeMonitor final : public Component {
 
   private:
     void take_message(Span<const std::byte> message, Instant now) noexcept {
-        const bool is_searching =
-            !checker_.get_order().is_synchronised() && !checker_.get_order().is_closed();
+        const bool is_searching = !checker_.get_order().is_synchronised();
         const CheckStatus checked = checker_.check(message);
         const FrameCause cause = checker_.get_cause();
         if (cause == FrameCause::kDataId) {
