@@ -34,6 +34,7 @@ namespace mamori::safety {
 /// Time:          O(components) per cycle. Memory: one notice, no heap.
 template <const auto& kNode, const auto& kLimits>
 class NodeMonitor final : public Component {
+    static_assert(is_sound_node<kNode>(), "each component needs a name of the system table");
     static_assert(
         is_valid(kLimits, get_period(kNode)),
         "limits of the notice out of range; specify 1 <= late_periods < silent_periods, start_periods >= 3");
