@@ -275,6 +275,17 @@ TEST_F(ReactionTableTest, DemandOfAnInvalidModeStaysInTheNextValidOne) {
     EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kSto);
 }
 
+TEST_F(ReactionTableTest, FaultThatIsNotLatchedKeepsNoDemand) {
+    verifies("SWR-FLT-012", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const ReactionDemand demand{Reaction::kSto, static_cast<FaultIndex>(Fault::kWarm), 1_ms};
+
+    EXPECT_EQ(faults_.raise(demand).fault, kNoFault);
+    latch(Fault::kWarm);
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kSs2) << "nothing of the earlier demand";
+    EXPECT_EQ(faults_.raise(demand).reaction, Reaction::kSto);
+    EXPECT_EQ(calc_in(Mode::kManual, faults_), Reaction::kSto);
+}
+
 TEST_F(ReactionTableTest, AcknowledgementEndsTheDemandAndALaterFaultGetsTheRowOfItsMode) {
     verifies("SWR-FLT-012", Technique::kStateTransition);
     latch(Fault::kNoise);

@@ -352,7 +352,7 @@ class Bench final {
     /// @return true when the wait has ended; a report that has not come within the bound is missed.
     bool check_bound(bool is_seen) {
         const std::int64_t delay_ns = now_ns_ - injected_at_ns_;
-        const std::int64_t bound_ns = is_silence(injection_) ? kSilenceBound_ns : kChangeBound_ns;
+        const std::int64_t bound_ns = is_silence(injection_) ? kSilenceBoundNs : kChangeBoundNs;
         if (delay_ns > bound_ns) {
             ++outcome_.missed;
             return true;

@@ -37,8 +37,8 @@ struct Outcome {
 };
 
 /// Bound of a node that sends nothing and of a change in a notice, as the manual derives it.
-inline constexpr std::int64_t kSilenceBound_ns = 23'000'000;
-inline constexpr std::int64_t kChangeBound_ns = 17'000'000;
+inline constexpr std::int64_t kSilenceBoundNs = 23'000'000;
+inline constexpr std::int64_t kChangeBoundNs = 17'000'000;
 
 /// @param[in] frames major frames of 1 ms. @param[in] injections spread over them; 0: none.
 Outcome run_two_nodes(std::uint64_t frames, std::uint32_t injections, std::uint32_t seed);

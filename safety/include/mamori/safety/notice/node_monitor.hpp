@@ -34,6 +34,7 @@ namespace mamori::safety {
 /// Time:          O(components) per cycle. Memory: one notice, no heap.
 template <const auto& kNode, const auto& kLimits>
 class NodeMonitor final : public Component {
+    static_assert(is_sound_node<kNode>(), "each component needs a name of the system table");
     static_assert(
         is_valid(kLimits, get_period(kNode)),
         "limits of the notice out of range; specify 1 <= late_periods < silent_periods, start_periods >= 3");
@@ -85,8 +86,7 @@ class NodeMonitor final : public Component {
 
   private:
     void take_message(Span<const std::byte> message, Instant now) noexcept {
-        const bool is_searching =
-            !checker_.get_order().is_synchronised() && !checker_.get_order().is_closed();
+        const bool is_searching = !checker_.get_order().is_synchronised();
         const CheckStatus checked = checker_.check(message);
         const FrameCause cause = checker_.get_cause();
         if (cause == FrameCause::kDataId) {

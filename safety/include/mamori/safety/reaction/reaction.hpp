@@ -52,13 +52,11 @@ struct ReactionDemand {
     Duration within{0};          ///< from the latching of the fault to the start of the reaction
 };
 
-/// True when `demand` is more severe than `other`, or as severe with a shorter time. Any demand is worse than
-/// none.
+/// True when `demand` is more severe than `other`, or as severe with a shorter time, or when there is no
+/// other.
+/// @param[in] demand of a fault.
 constexpr bool is_worse(const ReactionDemand& demand, const ReactionDemand& other) noexcept {
-    if (demand.fault == kNoFault || other.fault == kNoFault) {
-        return demand.fault != kNoFault;
-    }
-    return demand.reaction > other.reaction ||
+    return other.fault == kNoFault || demand.reaction > other.reaction ||
            (demand.reaction == other.reaction && demand.within < other.within);
 }
 
