@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "arm_start.hpp"
-#include "hil_controller.hpp"
+#include "hil_ends.hpp"
 #include "hil_program.hpp"
 #include "mamori/simbody_sim/computed_torque_controller.hpp"
 
@@ -16,38 +16,11 @@ namespace lcm = mamori::ports::lcm;
 constexpr const char* kName = "hil_controller";
 constexpr std::int64_t kPollNs = 100'000'000;
 
-using StateQueue = lcm::MessageQueue<StateMessage, kHilQueueDepth>;
-
 lcm::LcmLink g_link;
 lcm::LcmSender g_sender{g_link, kCommandChannel};
 StateQueue g_queue;
 Doorbell g_bell{g_queue};
 FaultySink g_sink{Link::kCommand, kCommandE2e};
-
-/// Replies to each input until SIGTERM. @return counters of the link.
-lcm::LinkNews reply_to_all(HilController& controller, const mamori::sim::FaultPlan& fault) {
-    lcm::LinkReceiver<StateMessage, StateQueue> receiver{"state_receiver", g_queue, {kHilMaxDelta}};
-    lcm::LinkSender<CommandMessage> sender{"command_sender", g_sink};
-    mamori::OutPort<TorqueCommand> source{mamori::kNoOwner, "source"};
-    const bool may_hang = fault.kind == mamori::sim::FaultKind::kControllerHang;
-    while (!is_stop_requested()) {
-        static_cast<void>(g_bell.wait_until(read_monotonic_ns() + kPollNs));
-        const Instant now{read_monotonic_ns()};
-        static_cast<void>(receiver.on_execute({0, now}));
-        if (!receiver.out.publish(now)) {
-            continue;
-        }
-        const ControllerInput& input = receiver.out.get_published();
-        if (may_hang && is_active(fault, Instant{input.sent_at_ns})) {
-            continue;
-        }
-        g_sink.set_frame(static_cast<std::uint64_t>(input.sent_at_ns / kFrame.ns));
-        source.write(controller.reply(input));
-        sender.in.take(source.get_staged_sample(now));
-        static_cast<void>(sender.on_execute({}));
-    }
-    return receiver.get_news();
-}
 
 }  // namespace
 
@@ -74,10 +47,14 @@ int main(int argc, char** argv) {
     if (const int status = open_hil_link(kName, g_link, options.url); status != kHilExitOk) {
         return status;
     }
-    const lcm::LinkNews news = reply_to_all(controller, fault);
+    ControllerEnd end{g_queue, g_sink};
+    while (!is_stop_requested()) {
+        static_cast<void>(g_bell.wait_until(read_monotonic_ns() + kPollNs));
+        reply(controller, end, fault, Instant{read_monotonic_ns()});
+    }
     g_link.close();
     return write_hil_report(kName, options.run.out, "controller.json",
                             {{"schema", "mamori.hil_controller/1"},
-                             {"state", to_json(news)},
+                             {"state", to_json(end.get_news())},
                              {"injected", g_sink.get_injected_count()}});
 }

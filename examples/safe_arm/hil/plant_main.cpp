@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "arm_start.hpp"
-#include "hil_plant.hpp"
+#include "hil_ends.hpp"
 #include "hil_program.hpp"
 
 namespace {
@@ -16,8 +16,6 @@ namespace lcm = mamori::ports::lcm;
 
 constexpr const char* kName = "hil_plant";
 constexpr std::int64_t kPatienceNs = 60'000'000'000;  ///< until the first message of the kernel
-
-using DriveQueue = lcm::MessageQueue<DriveMessage, kHilQueueDepth>;
 
 lcm::LcmLink g_link;
 lcm::LcmSender g_sender{g_link, kDeviceChannel};
@@ -53,21 +51,20 @@ class PlantLoop final {
                    ? ""
                    : "the simulated plant diverged in frame " + std::to_string(plant_.get_frame_count());
     }
-    const lcm::LinkNews get_news() const noexcept { return receiver_.get_news(); }
+    lcm::LinkNews get_news() const noexcept { return end_.get_news(); }
     std::int64_t get_closed_after_ns() const noexcept { return closed_after_ns_; }
 
   private:
     void receive() {
         const Instant now{read_monotonic_ns()};
-        static_cast<void>(receiver_.on_execute({0, now}));
-        if (!receiver_.out.publish(now)) {
+        if (!end_.receive(now)) {
             return;
         }
-        plant_.take(receiver_.out.get_published());
+        plant_.take(end_.get_received());
         if (plant_.is_linked()) {
             heard_ns_ = now.ns;
             deadline_ns_ = now.ns + kDriveSilenceMax.ns;
-            send_answer();
+            send_answer(plant_, end_, now);
         }
     }
     void pass_deadline() {
@@ -77,22 +74,13 @@ class PlantLoop final {
         } else if (plant_.get_lost_at().has_value()) {
             plant_.run_alone();
         }
-        send_answer();
+        send_answer(plant_, end_, Instant{read_monotonic_ns()});
         deadline_ns_ += kFrame.ns;
-    }
-    void send_answer() {
-        const std::uint64_t frames = plant_.get_frame_count();
-        g_sink.set_frame(frames == 0U ? 0U : frames - 1U);
-        source_.write(plant_.answer());
-        sender_.in.take(source_.get_staged_sample(Instant{read_monotonic_ns()}));
-        static_cast<void>(sender_.on_execute({}));
     }
 
     HilPlant& plant_;
     std::uint64_t frames_;
-    lcm::LinkReceiver<DriveMessage, DriveQueue> receiver_{"drive_receiver", g_queue, {kHilMaxDelta}};
-    lcm::LinkSender<DeviceMessage> sender_{"device_sender", g_sink};
-    mamori::OutPort<DeviceFrame> source_{mamori::kNoOwner, "source"};
+    PlantEnd end_{g_queue, g_sink};
     std::int64_t deadline_ns_{0};
     std::int64_t heard_ns_{0};
     std::int64_t closed_after_ns_{0};
