@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
         return status;
     }
     ControllerEnd end{g_queue, g_sink};
+    end.watch_until(options.fault_frame);
     while (!is_stop_requested()) {
         static_cast<void>(g_bell.wait_until(read_monotonic_ns() + kPollNs));
         reply(controller, end, fault, Instant{read_monotonic_ns()});
@@ -56,5 +57,7 @@ int main(int argc, char** argv) {
     return write_hil_report(kName, options.run.out, "controller.json",
                             {{"schema", "mamori.hil_controller/1"},
                              {"state", to_json(end.get_news())},
-                             {"injected", g_sink.get_injected_count()}});
+                             {"injected", g_sink.get_injected_count()},
+                             {"received_gap_s", to_seconds(end.get_longest_received_gap())},
+                             {"sent_gap_s", to_seconds(end.get_longest_sent_gap())}});
 }

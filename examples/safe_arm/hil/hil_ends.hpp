@@ -6,6 +6,9 @@
 #ifndef EXAMPLES_SAFE_ARM_HIL_HIL_ENDS_HPP
 #define EXAMPLES_SAFE_ARM_HIL_HIL_ENDS_HPP
 
+#include <cstdint>
+#include <limits>
+
 #include "hil_controller.hpp"
 #include "hil_messages.hpp"
 #include "hil_plant.hpp"
@@ -17,6 +20,23 @@ namespace safe_arm {
 
 using DriveQueue = mamori::ports::lcm::MessageQueue<DriveMessage, kHilQueueDepth>;
 using StateQueue = mamori::ports::lcm::MessageQueue<StateMessage, kHilQueueDepth>;
+
+/// The longest time between two messages, as evidence of a disturbed host. Thread safety: none.
+class GapWatch final {
+  public:
+    void note(mamori::Instant now) noexcept {
+        const mamori::Duration gap = now - last_;
+        longest_ = has_last_ && gap > longest_ ? gap : longest_;
+        last_ = now;
+        has_last_ = true;
+    }
+    mamori::Duration get_longest() const noexcept { return longest_; }
+
+  private:
+    mamori::Instant last_{};
+    mamori::Duration longest_{};
+    bool has_last_{false};
+};
 
 /// Receives messages of one link and sends on another, outside of any system table.
 ///
@@ -31,23 +51,39 @@ class LinkEnd final {
     /// Takes the waiting messages. @return true when one of them is valid and new: get_received().
     bool receive(mamori::Instant now) noexcept {
         static_cast<void>(receiver_.on_execute({0, now}));
-        return receiver_.out.publish(now);
+        const bool is_new = receiver_.out.publish(now);
+        if (is_new && is_watching_) {
+            received_.note(now);
+        }
+        return is_new;
     }
     const typename InMessage::Value& get_received() const noexcept { return receiver_.out.get_published(); }
     /// @param[in] frame major frame of the message, for planned errors.
     void send(const typename OutMessage::Value& value, std::uint64_t frame, mamori::Instant now) noexcept {
+        is_watching_ = frame > 0U && frame < watch_end_;
+        if (is_watching_) {
+            sent_.note(now);
+        }
         sink_.set_frame(frame);
         source_.write(value);
         sender_.in.take(source_.get_staged_sample(now));
         static_cast<void>(sender_.on_execute({0, now}));
     }
     mamori::ports::lcm::LinkNews get_news() const noexcept { return receiver_.get_news(); }
+    /// The gaps are those of the major frames 1 .. `frame` - 1: a planned fault makes gaps of its own.
+    void watch_until(std::uint64_t frame) noexcept { watch_end_ = frame; }
+    mamori::Duration get_longest_received_gap() const noexcept { return received_.get_longest(); }
+    mamori::Duration get_longest_sent_gap() const noexcept { return sent_.get_longest(); }
 
   private:
     mamori::ports::lcm::LinkReceiver<InMessage, Queue> receiver_;
     mamori::ports::lcm::LinkSender<OutMessage> sender_;
     mamori::OutPort<typename OutMessage::Value> source_{mamori::kNoOwner, "source"};
     FaultySink& sink_;
+    GapWatch received_{};
+    GapWatch sent_{};
+    std::uint64_t watch_end_{std::numeric_limits<std::uint64_t>::max()};
+    bool is_watching_{false};
 };
 
 using PlantEnd = LinkEnd<DriveMessage, DriveQueue, DeviceMessage>;

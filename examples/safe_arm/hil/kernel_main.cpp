@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "arm_start.hpp"
+#include "hil_ends.hpp"
 #include "hil_program.hpp"
 #include "hil_system.hpp"
 #include "mamori/ports/posix_rt/machine.hpp"
@@ -34,8 +35,8 @@ lcm::LcmSender g_state_sender{g_link, kStateChannel};
 /// Triggers planned errors, and notes when the outputs were closed first.
 class Watcher final : public mamori::Devices {
   public:
-    Watcher(const mamori::ports::posix_rt::FrameClock& clock, std::uint64_t frames) noexcept
-        : clock_(clock), frames_(frames) {}
+    Watcher(const mamori::ports::posix_rt::FrameClock& clock, const HilOptions& options) noexcept
+        : clock_(clock), frames_(options.run.frames), watch_end_(options.fault_frame) {}
 
     void sample(std::uint64_t frame, Instant) noexcept override {
         hil::drive_sink.set_frame(frame);
@@ -43,6 +44,9 @@ class Watcher final : public mamori::Devices {
     }
     void apply(std::uint64_t frame, Instant start, Duration length) noexcept override {
         hil::watchdog_mirror.check(start + length);
+        if (frame > 0U && frame < watch_end_) {
+            note_arrivals(start);
+        }
         was_enabled_ = was_enabled_ || hil::outputs.torque_enable;
         if (was_enabled_ && !hil::outputs.torque_enable && closed_at_ns_ < 0) {
             closed_at_ns_ = clock_.get_now().ns;
@@ -52,12 +56,33 @@ class Watcher final : public mamori::Devices {
             hil::hang_point.release();
         }
     }
+    Duration get_device_gap() const noexcept { return device_gap_.get_longest(); }
+    Duration get_command_gap() const noexcept { return command_gap_.get_longest(); }
     std::int64_t get_closed_at_ns() const noexcept { return closed_at_ns_; }
     std::int64_t get_last_answer_ns() const noexcept { return last_answer_ns_; }
 
   private:
+    /// In whole frames.
+    void note_arrivals(Instant start) noexcept {
+        const std::uint32_t device = hil::device_receiver.get_news().used;
+        const std::uint32_t command = hil::command_receiver.get_news().used;
+        if (device != device_count_) {
+            device_gap_.note(start);
+        }
+        if (command != command_count_) {
+            command_gap_.note(start);
+        }
+        device_count_ = device;
+        command_count_ = command;
+    }
+
     const mamori::ports::posix_rt::FrameClock& clock_;
     std::uint64_t frames_;
+    std::uint64_t watch_end_;
+    std::uint32_t device_count_{0U};
+    std::uint32_t command_count_{0U};
+    GapWatch device_gap_{};
+    GapWatch command_gap_{};
     bool was_enabled_{false};
     std::int64_t closed_at_ns_{-1};
     std::int64_t last_answer_ns_{-1};
@@ -112,6 +137,8 @@ nlohmann::ordered_json make_report(const RealTimeMachine& machine, const Watcher
             {"closed_at_s", to_s(watcher.get_closed_at_ns())},
             {"last_answer_s", to_s(watcher.get_last_answer_ns())},
             {"closes_within_s", to_seconds(kKernelClosesWithin)},
+            {"device_gap_s", to_seconds(watcher.get_device_gap())},
+            {"command_gap_s", to_seconds(watcher.get_command_gap())},
             {"device", to_json(hil::device_receiver.get_news())},
             {"command", to_json(hil::command_receiver.get_news())},
             {"injected", hil::drive_sink.get_injected_count() + hil::state_sink.get_injected_count()}};
@@ -153,7 +180,7 @@ int main(int argc, char** argv) {
     static const std::array<int, 1U> processors{find_last_processor()};
     machine_options.processors = processors;
     static RealTimeMachine machine{machine_options};
-    static Watcher watcher{machine.get_clock(), options.run.frames};
+    static Watcher watcher{machine.get_clock(), options};
     if (hil::reader.configure(get_encoder_scale(*loaded.model)) != Status::kOk ||
         hil::watch_components() != Status::kOk) {
         return fail_hil(kName, kHilExitFailed, "the system refuses to start");

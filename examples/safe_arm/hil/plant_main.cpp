@@ -26,7 +26,10 @@ FaultySink g_sink{Link::kDevice, kDeviceE2e};
 /// Moves the plant by its messages, or by the clock while there are none.
 class PlantLoop final {
   public:
-    PlantLoop(HilPlant& plant, std::uint64_t frames) noexcept : plant_(plant), frames_(frames) {}
+    PlantLoop(HilPlant& plant, const HilOptions& options) noexcept
+        : plant_(plant), frames_(options.run.frames) {
+        end_.watch_until(options.fault_frame);
+    }
 
     /// @return why the run is not complete, or nothing.
     std::string run() {
@@ -51,7 +54,7 @@ class PlantLoop final {
                    ? ""
                    : "the simulated plant diverged in frame " + std::to_string(plant_.get_frame_count());
     }
-    lcm::LinkNews get_news() const noexcept { return end_.get_news(); }
+    const PlantEnd& get_end() const noexcept { return end_; }
     std::int64_t get_closed_after_ns() const noexcept { return closed_after_ns_; }
 
   private:
@@ -116,7 +119,7 @@ int main(int argc, char** argv) {
                      motion_start + mamori::Duration{motion_ns}};
     plant.set_observer(&record.get_verdict());
     HilPlant hil_plant{plant, fault, record};
-    PlantLoop loop{hil_plant, options.run.frames};
+    PlantLoop loop{hil_plant, options};
     g_sink.configure(options.error, g_sender);
     catch_stop_signals();
     static_cast<void>(g_sender.open());
@@ -132,8 +135,10 @@ int main(int argc, char** argv) {
     }
     const nlohmann::ordered_json report = {
         {"schema", "mamori.hil_plant/1"},
-        {"drive", to_json(loop.get_news())},
+        {"drive", to_json(loop.get_end().get_news())},
         {"injected", g_sink.get_injected_count()},
+        {"received_gap_s", to_seconds(loop.get_end().get_longest_received_gap())},
+        {"sent_gap_s", to_seconds(loop.get_end().get_longest_sent_gap())},
         {"lost_at_s", to_seconds_or_null(hil_plant.get_lost_at())},
         {"closed_at_s", to_seconds_or_null(hil_plant.get_closed_at())},
         {"closed_after_s", to_seconds(mamori::Duration{loop.get_closed_after_ns()})}};
