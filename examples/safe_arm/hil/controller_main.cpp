@@ -48,7 +48,6 @@ int main(int argc, char** argv) {
         return status;
     }
     ControllerEnd end{g_queue, g_sink};
-    end.watch_until(options.fault_frame);
     while (!is_stop_requested()) {
         static_cast<void>(g_bell.wait_until(read_monotonic_ns() + kPollNs));
         reply(controller, end, fault, Instant{read_monotonic_ns()});

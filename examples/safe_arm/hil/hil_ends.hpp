@@ -7,7 +7,6 @@
 #define EXAMPLES_SAFE_ARM_HIL_HIL_ENDS_HPP
 
 #include <cstdint>
-#include <limits>
 
 #include "hil_controller.hpp"
 #include "hil_messages.hpp"
@@ -52,7 +51,7 @@ class LinkEnd final {
     bool receive(mamori::Instant now) noexcept {
         static_cast<void>(receiver_.on_execute({0, now}));
         const bool is_new = receiver_.out.publish(now);
-        if (is_new && is_watching_) {
+        if (is_new) {
             received_.note(now);
         }
         return is_new;
@@ -60,8 +59,7 @@ class LinkEnd final {
     const typename InMessage::Value& get_received() const noexcept { return receiver_.out.get_published(); }
     /// @param[in] frame major frame of the message, for planned errors.
     void send(const typename OutMessage::Value& value, std::uint64_t frame, mamori::Instant now) noexcept {
-        is_watching_ = frame > 0U && frame < watch_end_;
-        if (is_watching_) {
+        if (frame > 0U) {
             sent_.note(now);
         }
         sink_.set_frame(frame);
@@ -70,8 +68,6 @@ class LinkEnd final {
         static_cast<void>(sender_.on_execute({0, now}));
     }
     mamori::ports::lcm::LinkNews get_news() const noexcept { return receiver_.get_news(); }
-    /// The gaps are those of the major frames 1 .. `frame` - 1: a planned fault makes gaps of its own.
-    void watch_until(std::uint64_t frame) noexcept { watch_end_ = frame; }
     mamori::Duration get_longest_received_gap() const noexcept { return received_.get_longest(); }
     mamori::Duration get_longest_sent_gap() const noexcept { return sent_.get_longest(); }
 
@@ -82,8 +78,6 @@ class LinkEnd final {
     FaultySink& sink_;
     GapWatch received_{};
     GapWatch sent_{};
-    std::uint64_t watch_end_{std::numeric_limits<std::uint64_t>::max()};
-    bool is_watching_{false};
 };
 
 using PlantEnd = LinkEnd<DriveMessage, DriveQueue, DeviceMessage>;

@@ -118,8 +118,6 @@ HilOptions parse_hil_options(const char* name, const char* what, int argc, const
         }
         run.fault = *parsed.plan;
     }
-    result.fault_frame = run.fault.kind == FaultKind::kNone ? std::numeric_limits<std::uint64_t>::max()
-                                                            : to_frames(run.fault.at + kMotionStart);
     result.error = make_link_error(run.fault, run.seed);
     if (!error.empty() && run.fault.kind != FaultKind::kMessageLost) {
         result.exit_code =

@@ -29,9 +29,8 @@ inline constexpr int kHilExitMissing = 3;
 struct HilOptions {
     std::string url;
     RunOptions run;
-    LinkErrorPlan error{};          ///< of `run.fault`, if it is one of a link
-    std::uint64_t fault_frame{0U};  ///< major frame from which on the fault is present; without one, none
-    std::string replay;             ///< log that the kernel replays; empty: none
+    LinkErrorPlan error{};  ///< of `run.fault`, if it is one of a link
+    std::string replay;     ///< log that the kernel replays; empty: none
     int exit_code{-1};
 };
 

@@ -35,8 +35,8 @@ lcm::LcmSender g_state_sender{g_link, kStateChannel};
 /// Triggers planned errors, and notes when the outputs were closed first.
 class Watcher final : public mamori::Devices {
   public:
-    Watcher(const mamori::ports::posix_rt::FrameClock& clock, const HilOptions& options) noexcept
-        : clock_(clock), frames_(options.run.frames), watch_end_(options.fault_frame) {}
+    Watcher(const mamori::ports::posix_rt::FrameClock& clock, std::uint64_t frames) noexcept
+        : clock_(clock), frames_(frames) {}
 
     void sample(std::uint64_t frame, Instant) noexcept override {
         hil::drive_sink.set_frame(frame);
@@ -44,9 +44,7 @@ class Watcher final : public mamori::Devices {
     }
     void apply(std::uint64_t frame, Instant start, Duration length) noexcept override {
         hil::watchdog_mirror.check(start + length);
-        if (frame > 0U && frame < watch_end_) {
-            note_arrivals(start);
-        }
+        note_arrivals(start);
         was_enabled_ = was_enabled_ || hil::outputs.torque_enable;
         if (was_enabled_ && !hil::outputs.torque_enable && closed_at_ns_ < 0) {
             closed_at_ns_ = clock_.get_now().ns;
@@ -78,7 +76,6 @@ class Watcher final : public mamori::Devices {
 
     const mamori::ports::posix_rt::FrameClock& clock_;
     std::uint64_t frames_;
-    std::uint64_t watch_end_;
     std::uint32_t device_count_{0U};
     std::uint32_t command_count_{0U};
     GapWatch device_gap_{};
@@ -180,7 +177,7 @@ int main(int argc, char** argv) {
     static const std::array<int, 1U> processors{find_last_processor()};
     machine_options.processors = processors;
     static RealTimeMachine machine{machine_options};
-    static Watcher watcher{machine.get_clock(), options};
+    static Watcher watcher{machine.get_clock(), options.run.frames};
     if (hil::reader.configure(get_encoder_scale(*loaded.model)) != Status::kOk ||
         hil::watch_components() != Status::kOk) {
         return fail_hil(kName, kHilExitFailed, "the system refuses to start");

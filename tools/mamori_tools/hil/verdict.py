@@ -173,11 +173,21 @@ def describe_host(reports: Mapping[str, Mapping[str, Any]], facts: RunFacts, cas
             parts.append(f"{kernel['overran']} windows overran")
         if kernel["worst_lateness_s"] > LATENESS_MAX_S:
             parts.append(f"a window was late by {kernel['worst_lateness_s'] * 1e3:.2f} ms")
-        # The kernel sends in each frame, so the network was late.
-        links = [(link, 0.0, report.get("received_gap_s", 0.0)) for link, report in (("drive", plant), ("state", controller))]
-        links += [("device", plant.get("sent_gap_s"), kernel["device_gap_s"]), ("command", controller.get("sent_gap_s"), kernel["command_gap_s"])]
-        parts += [f"no message on {link} for {received * 1e3:.1f} ms, although it was sent in time"
-                  for link, sent, received in links if sent is not None and sent <= GAP_MAX_S < received]  # fmt: skip
+    parts += _list_late_links(case, kernel, plant, controller)
+    if plant.get("late_s", 0.0) > LATENESS_MAX_S:
+        parts.append(f"the thread of the plant was late by {plant['late_s'] * 1e3:.2f} ms")
     if facts.steal_s > STEAL_MAX_S:
         parts.append(f"the hypervisor took {facts.steal_s * 1e3:.0f} ms")
     return ", ".join(parts)
+
+
+def _list_late_links(case: HilCase, kernel: Mapping[str, Any], plant: Mapping[str, Any], controller: Mapping[str, Any]) -> list[str]:
+    """Links on which a message was late although its sender was not. A link with an injected error has gaps of its own."""
+    is_of_messages = case.arm.fault is not None and case.arm.fault.kind.startswith("message_")
+    faulty = case.link or ("command" if is_of_messages else "")
+    # Link -> longest gap between two messages where they are sent and received. The kernel sends in each frame; its report shows skipped ones.
+    gaps = {"drive": (0.0, plant.get("received_gap_s", 0.0)), "state": (0.0, controller.get("received_gap_s", 0.0)),
+            "device": (plant.get("sent_gap_s"), kernel.get("device_gap_s", 0.0)),
+            "command": (controller.get("sent_gap_s"), kernel.get("command_gap_s", 0.0))}  # fmt: skip
+    return [f"no message on {link} for {received * 1e3:.1f} ms, although it was sent in time"
+            for link, (sent, received) in gaps.items() if link != faulty and sent is not None and sent <= GAP_MAX_S < received]  # fmt: skip
