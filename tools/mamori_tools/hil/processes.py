@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 import shlex
+import shutil
 import subprocess
 import time
 from collections.abc import Iterator, Mapping
@@ -51,7 +52,7 @@ class Programs:
                 words = shlex.split(command)
             except ValueError as error:
                 raise InputError(f"hil: --{name}: {error}; write a command as in a shell") from error
-            if not words or not any(os.access(Path(folder, words[0]), os.X_OK) for folder in ("", *os.get_exec_path())):
+            if not words or shutil.which(words[0]) is None:
                 raise InputError(f"hil: --{name}: '{words[0] if words else command}' is not a program that can be run; specify its path")
 
     def get_shipped(self, name: str) -> Path:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mamori_tools.campaign.arm.judge import judge
+from mamori_tools.campaign.arm.judge import ROUNDING_S, judge
 from mamori_tools.campaign.arm.run_record import load_run
 from mamori_tools.campaign.case import Check, Verdict, conclude
 from mamori_tools.hil.processes import RunFacts
@@ -124,7 +124,7 @@ def judge_kill(case: HilCase, run: Mapping[str, Any], plant: Mapping[str, Any], 
     if case.kill == "kernel":
         lost, closed = plant.get("lost_at_s"), plant.get("closed_at_s")
         delay = None if lost is None or closed is None else closed - lost
-        checks.append(Check("closed on the time line", f"<= {SILENCE_MAX_S:.3f} s", str(delay), delay is not None and delay <= SILENCE_MAX_S + 1e-9))
+        checks.append(Check("closed on the time line", f"<= {SILENCE_MAX_S:.3f} s", str(delay), delay is not None and delay <= SILENCE_MAX_S + ROUNDING_S))
         wall = plant.get("closed_after_s", 0.0)
         bound = SILENCE_MAX_S + CLOCK_S
         checks.append(Check("closed by the clock", f"<= {bound:.3f} s", f"{wall:.4f} s", 0.0 < wall <= bound))
@@ -136,7 +136,7 @@ def judge_lost_plant(kernel: Mapping[str, Any]) -> list[Check]:
     closed, last, bound = kernel.get("closed_at_s"), kernel.get("last_answer_s"), kernel.get("closes_within_s", 0.0)
     delay = None if closed is None or last is None else closed - last
     return [
-        Check("outputs closed", f"<= {bound:.4f} s", "never" if delay is None else f"{delay:.4f} s", delay is not None and 0.0 <= delay <= bound),
+        Check("outputs closed", f"<= {bound:.4f} s", "never" if delay is None else f"{delay:.4f} s", delay is not None and 0.0 <= delay <= bound + ROUNDING_S),
         Check("first fault", "MeasurementStale", str(kernel.get("first_fault")), kernel.get("first_fault") == "MeasurementStale"),
     ]
 
@@ -149,27 +149,38 @@ def judge_links(case: HilCase, reports: Mapping[str, Mapping[str, Any]], own: Ma
         if process in own or news is None:
             continue
         if link == case.link:
-            signs = SIGNS[case.error]
+            signs = () if is_silent(case) else SIGNS[case.error]
             seen = sum(int(news[sign]) for sign in signs)
             checks.append(Check(f"{case.error} on {link}", "detected", f"{', '.join(signs) or 'age'}: {seen}", not signs or seen > 0))
             continue
+        if link == "device" and is_hang(case):
+            continue  # its receiver hangs with the supervisor
         wrong = {name: news[name] for name in ("damaged", "unordered", "foreign", "truncated", "oversized") if news[name]}
         hint = f" on {CHANNELS[link]}; stop any other sender on this channel" if wrong else ""
         checks.append(Check(f"link {link}", "one sender, no wrong message", f"{wrong or 'none'}{hint}", not wrong))
     return checks
 
 
+def is_silent(case: HilCase) -> bool:
+    """A loss without end leaves no later message that could show it in a counter."""
+    return case.error == "loss" and case.arm.fault is not None and case.arm.fault.duration_s is None
+
+
+def is_hang(case: HilCase) -> bool:
+    return case.arm.fault is not None and case.arm.fault.kind == "supervisor_hang"
+
+
 def describe_host(reports: Mapping[str, Mapping[str, Any]], facts: RunFacts, case: HilCase) -> str:
     """What shows that the host, not the software, delayed a window or a message; empty: nothing."""
     parts = []
     kernel, plant, controller = (reports[name] for name in ("kernel", "plant", "controller"))
-    is_hang = case.arm.fault is not None and case.arm.fault.kind == "supervisor_hang"
+    may_overrun = is_hang(case)
     if kernel:
         if not kernel["has_priority"] or not kernel["has_locked_memory"]:
             parts.append("no fixed priority or no locked memory")
-        if kernel["missed"] and not is_hang:
+        if kernel["missed"] and not may_overrun:
             parts.append(f"{kernel['missed']} windows skipped")
-        if kernel["overran"] and not is_hang:
+        if kernel["overran"] and not may_overrun:
             parts.append(f"{kernel['overran']} windows overran")
         if kernel["worst_lateness_s"] > LATENESS_MAX_S:
             parts.append(f"a window was late by {kernel['worst_lateness_s'] * 1e3:.2f} ms")
