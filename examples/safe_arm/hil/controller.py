@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
+# ruff: noqa
+# mypy: ignore-errors
 """A motion controller of the user: PD control along the motion table. docs/manual/hil.md shows how to run it."""
-import bisect, os, struct  # noqa: E401
-import lcm
+import bisect, os, struct, lcm
 from safe_arm.ControllerInput_e2e import ControllerInput_e2e
 from safe_arm.TorqueCommand_e2e import TorqueCommand_e2e
 

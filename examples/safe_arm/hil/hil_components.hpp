@@ -86,7 +86,7 @@ class LinkWatchdog final : public mamori::safety::Watchdog {
     constexpr explicit LinkWatchdog(mamori::ports::virtual_time::VirtualWatchdog& mirror) noexcept
         : mirror_(mirror) {}
 
-    /// @return that of VirtualWatchdog::service(); a refused service is not counted.
+    /// @return that of VirtualWatchdog::service(); a rejected service is not counted.
     mamori::Status service(mamori::Instant now) noexcept override;
     std::uint32_t get_service_count() const noexcept { return service_count_; }
 
@@ -98,10 +98,15 @@ class LinkWatchdog final : public mamori::safety::Watchdog {
 /// Makes the message to the plant of the outputs that the drive gate wrote.
 class DriveEncoder final : public mamori::Component {
   public:
-    /// All must have static storage. @param[in] supervisor of the same core, for the report.
+    /// All must have static storage. @param[in] supervisor, supervision of the same core, for the report.
     constexpr DriveEncoder(const mamori::safety::ArmOutputs& outputs, const LinkWatchdog& watchdog,
-                           const SafetySupervisor& supervisor) noexcept
-        : Component("drive_encoder"), outputs_(outputs), watchdog_(watchdog), supervisor_(supervisor) {}
+                           const SafetySupervisor& supervisor,
+                           const mamori::safety::ExecutionSupervisor& supervision) noexcept
+        : Component("drive_encoder"),
+          outputs_(outputs),
+          watchdog_(watchdog),
+          supervisor_(supervisor),
+          supervision_(supervision) {}
 
     mamori::InPort<StopCommand> stop{*this, "stop"};
     mamori::InPort<TorqueCommand> command{*this, "command"};
@@ -117,6 +122,7 @@ class DriveEncoder final : public mamori::Component {
     const mamori::safety::ArmOutputs& outputs_;
     const LinkWatchdog& watchdog_;
     const SafetySupervisor& supervisor_;
+    const mamori::safety::ExecutionSupervisor& supervision_;
     std::atomic<bool> is_closed_{false};
 };
 

@@ -26,12 +26,13 @@ struct DeviceFrame {
     mamori::safety::ArmInputs inputs{};
 };
 
-/// What the supervisor believes; for the record of the plant only.
+/// State of the supervisor, for the record of the plant only.
 struct SupervisorReport {
     std::uint8_t state{1U};                               ///< SafeState
     std::uint8_t reaction{0U};                            ///< Reaction: the severest so far
     std::uint16_t first_fault{mamori::safety::kNoFault};  ///< ArmFault
     bool is_stopping{false};                              ///< torque off, or a controlled stop requested
+    std::uint32_t late_windows{0U};  ///< late releases, and 1 more if a component expired
     JointVector setpoint_rad{};
 };
 
@@ -59,7 +60,8 @@ MAMORI_LCM_NAMES(mamori::safety::ArmInputs, encoder_a_counts, encoder_b_counts, 
                  brake_closed, torque_enabled, power_good, start_button, reset_button)
 MAMORI_LCM_NAMES(mamori::safety::ArmOutputs, torque_nm, torque_enable, brake_release)
 MAMORI_LCM_FIELDS(safe_arm::DeviceFrame, answered_ns, inputs)
-MAMORI_LCM_FIELDS(safe_arm::SupervisorReport, state, reaction, first_fault, is_stopping, setpoint_rad)
+MAMORI_LCM_FIELDS(safe_arm::SupervisorReport, state, reaction, first_fault, is_stopping, late_windows,
+                  setpoint_rad)
 MAMORI_LCM_FIELDS(safe_arm::DriveFrame, frame, watchdog_services, outputs, report)
 MAMORI_LCM_FIELDS(safe_arm::ControllerInput, sent_at_ns, position_rad, velocity_rad_s, is_operational,
                   torque_enable, stop_requested)

@@ -44,6 +44,8 @@ class HilPlant final {
     std::optional<mamori::Instant> get_lost_at() const noexcept { return lost_at_; }
     /// Instant at which torque and brake release were removed by lose_link().
     std::optional<mamori::Instant> get_closed_at() const noexcept { return closed_at_; }
+    /// As the newest message reports them.
+    std::uint32_t get_late_windows() const noexcept { return newest_.report.late_windows; }
     /// False once the state of the plant is no longer finite.
     bool is_sound() const noexcept { return is_sound_; }
 

@@ -53,7 +53,7 @@ nlohmann::ordered_json to_json(const mamori::ports::lcm::LinkNews& news);
 bool is_stop_requested() noexcept;
 void catch_stop_signals() noexcept;
 
-/// Wakes a thread for each message, which goes on to a queue.
+/// Wakes a thread for each message, which continues to a queue.
 class Doorbell final : public mamori::ports::lcm::MessageInbox {
   public:
     /// @param[in] queue must outlive this object.

@@ -37,7 +37,7 @@ mamori::ports::lcm::LinkSender<StateMessage> state_sender{"state_sender", state_
 mamori::ports::lcm::LinkReceiver<CommandMessage, CommandQueue> command_receiver{
     "command_receiver", command_queue, {kHilMaxDelta}};
 DriveGate gate{outputs};
-DriveEncoder encoder{outputs, watchdog, supervisor};
+DriveEncoder encoder{outputs, watchdog, supervisor, supervision};
 mamori::ports::lcm::LinkSender<DriveMessage> drive_sender{"drive_sender", drive_sink};
 
 MAMORI_CHECK(kHilSystem);

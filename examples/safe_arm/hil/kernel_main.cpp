@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
     static Watcher watcher{machine.get_clock(), options.run.frames};
     if (hil::reader.configure(get_encoder_scale(*loaded.model)) != Status::kOk ||
         hil::watch_components() != Status::kOk) {
-        return fail_hil(kName, kHilExitFailed, "the system refuses to start");
+        return fail_hil(kName, kHilExitFailed, "the system does not start");
     }
     machine.get_executives().get(0U).set_observer(&hil::supervision);
     const Status status = machine.run(options.run.frames, watcher);

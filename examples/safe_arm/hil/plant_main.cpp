@@ -143,6 +143,7 @@ int main(int argc, char** argv) {
         {"lost_at_s", to_seconds_or_null(hil_plant.get_lost_at())},
         {"closed_at_s", to_seconds_or_null(hil_plant.get_closed_at())},
         {"closed_after_s", to_seconds(mamori::Duration{loop.get_closed_after_ns()})},
+        {"late_windows", hil_plant.get_late_windows()},
         {"late_s", to_seconds(mamori::Duration{loop.get_late_ns()})}};
     if (const int status = write_hil_report(kName, options.run.out, "plant.json", report);
         status != kHilExitOk) {

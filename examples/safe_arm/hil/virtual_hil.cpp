@@ -26,7 +26,7 @@ void VirtualHil::sample(std::uint64_t frame, Instant now) noexcept {
     hil::drive_sink.set_frame(frame);
     hil::state_sink.set_frame(frame);
     const bool is_hanging = fault_.kind == mamori::sim::FaultKind::kSupervisorHang && is_active(fault_, now);
-    // In the table, so the call cannot be refused.
+    // In the table, so the call cannot be rejected.
     static_cast<void>(
         host_.set_duration(hil::hang_point, is_hanging ? mamori::ports::virtual_time::kNever : Duration{0}));
 }

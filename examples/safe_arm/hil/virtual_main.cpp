@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
     machine.get_executives().get(0U).set_observer(&hil::supervision);
     if (hil::reader.configure(get_encoder_scale(*loaded.model)) != Status::kOk ||
         hil::watch_components() != Status::kOk || machine.run(options.run.frames, devices) != Status::kOk) {
-        return fail_hil(kName, kHilExitFailed, "the system refuses to start");
+        return fail_hil(kName, kHilExitFailed, "the system does not start");
     }
     if (!hil_plant.is_sound()) {
         return fail_hil(kName, kHilExitFailed, "the simulated plant diverged");

@@ -11,7 +11,6 @@ import json
 import os
 import shutil
 import subprocess
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -97,7 +96,7 @@ def _judge_virtually(case: HilCase, programs: Programs, folder: Path) -> Verdict
 
 def _report(results: Sequence[HilResult], out: Path, screen: Screen) -> int:
     screen.say()
-    rows = [(one.case.id, one.virtual or "-", one.verdict, one.difference or "-", one.figure or "-") for one in results]
+    rows: list[tuple[str, ...]] = [(one.case.id, one.virtual or "-", one.verdict, one.difference or "-", one.figure or "-") for one in results]
     screen.print_table(("scenario", "virtual time", "hil", "difference", "figure of the host"), rows)
     content = {"schema": SCHEMA, "cases": [_to_json(one) for one in results]}
     write_text(out / "hil.json", json.dumps(content, indent=1, allow_nan=False) + "\n")

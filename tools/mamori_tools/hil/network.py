@@ -33,7 +33,7 @@ def check_tools() -> None:
 
 
 def enter_own_network() -> None:
-    """Moves this process, and with it all later children, to a new network namespace. @raise MissingError if the system refuses."""
+    """Moves this process, and with it all later children, to a new network namespace. @raise MissingError if the system denies it."""
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.unshare(CLONE_NEWNET) != 0:
         reason = os.strerror(ctypes.get_errno())

@@ -73,8 +73,8 @@ def list_cases(plan_path: Path, motion: Motion) -> tuple[HilCase, ...]:
     plan = load_plan(plan_path)
     assert isinstance(plan, ArmPlan)
     faults = [HilCase(_limit(case, plan, motion)) for case in resolve(select(plan), motion)]
-    errors = [_make_error(plan, motion, link, error, lasting, number)
-              for number, (lasting, link, error) in enumerate((lasting, link, error) for lasting in (True, False) for error in ERRORS for link in LINKS)]  # fmt: skip
+    kinds = [(lasting, error, link) for lasting in (True, False) for error in ERRORS for link in LINKS]
+    errors = [_make_error(plan, motion, link, error, lasting, number) for number, (lasting, error, link) in enumerate(kinds)]
     return tuple(_interleave(faults, errors))
 
 

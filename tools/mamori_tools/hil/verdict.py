@@ -184,6 +184,8 @@ def describe_host(reports: Mapping[str, Mapping[str, Any]], facts: RunFacts, cas
             parts.append(f"{kernel['overran']} windows overran")
         if kernel["worst_lateness_s"] > LATENESS_MAX_S:
             parts.append(f"a window was late by {kernel['worst_lateness_s'] * 1e3:.2f} ms")
+    if not kernel and plant.get("late_windows"):
+        parts.append(f"{plant['late_windows']} late windows before the kernel was killed")
     parts += _list_late_links(case, kernel, plant, controller)
     if plant.get("late_s", 0.0) > LATENESS_MAX_S:
         parts.append(f"the thread of the plant was late by {plant['late_s'] * 1e3:.2f} ms")

@@ -21,7 +21,8 @@ from mamori_tools.motion import load_limits, read_motion
 from mamori_trace.base.errors import WorkError
 
 PROJECT = Project(ROOT)
-JOIN = "import socket; s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM); s.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1); s.bind(('127.0.0.1', 7667))"
+JOIN = ("from socket import *; s = socket(AF_INET, SOCK_DGRAM); s.setsockopt(SOL_SOCKET, SO_REUSEPORT, 1); "
+        "s.bind(('127.0.0.1', 7667))")  # fmt: skip
 STAY = f"{JOIN}; import time; time.sleep(60)"
 END = f"{JOIN}; import time; time.sleep(0.3)"
 
@@ -96,7 +97,7 @@ def test_a_process_that_ends_before_the_run_is_named_with_its_last_line(start, t
 def test_a_process_that_does_not_join_the_network_is_named(start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:  # type: ignore[no-untyped-def]
     run = start({"controller": "import time; time.sleep(60)"})
     monkeypatch.setattr(processes, "JOIN_S", 0.5)
-    with pytest.raises(WorkError, match="the controller did not join udpm.*LCM_DEFAULT_URL"):
+    with pytest.raises(WorkError, match=r"the controller did not join udpm.*LCM_DEFAULT_URL"):
         run.run()
     assert list_left(tmp_path) == []
 
@@ -149,10 +150,10 @@ def test_only_the_planned_process_is_killed_at_its_instant(start, case: HilCase,
 @pytest.mark.skipif(os.geteuid() != 0, reason="a network namespace needs root")
 @pytest.mark.verifies("SWR-HIL-007", technique="requirements_based")
 def test_the_network_has_only_a_loopback_device_with_a_multicast_route() -> None:
-    text = "from mamori_tools.hil import network; network.enter_own_network(); import subprocess; print(open('/proc/net/dev').read(), open('/proc/net/route').read())"
+    text = "from mamori_tools.hil import network; network.enter_own_network(); print(*(open(f'/proc/net/{name}').read() for name in ('dev', 'route')))"
     done = subprocess.run([sys.executable, "-P", "-c", text], capture_output=True, text=True, check=False)
     if "Operation not permitted" in done.stderr:
-        pytest.skip("this host refuses a network namespace")
+        pytest.skip("this host denies a network namespace")
 
     assert done.returncode == 0, done.stderr
     devices = [line.split(":")[0].strip() for line in done.stdout.splitlines() if ":" in line]
@@ -163,7 +164,14 @@ def test_the_network_has_only_a_loopback_device_with_a_multicast_route() -> None
 
 @pytest.mark.verifies("SWR-HIL-007", technique="fault_injection", polarity="violation")
 def test_a_namespace_that_the_system_refuses_ends_with_status_3() -> None:
-    text = "from mamori_tools.hil import network\nnetwork.CLONE_NEWNET = 1 << 30 | 1\ntry:\n    network.enter_own_network()\nexcept Exception as error:\n    print(type(error).__name__, error)"
+    text = """
+from mamori_tools.hil import network
+network.CLONE_NEWNET |= 1  # a flag that unshare() does not have
+try:
+    network.enter_own_network()
+except Exception as error:
+    print(type(error).__name__, error)
+"""
     done = subprocess.run([sys.executable, "-P", "-c", text], capture_output=True, text=True, check=False)
 
     assert done.stdout.startswith("MissingError hil: a network namespace cannot be made (")

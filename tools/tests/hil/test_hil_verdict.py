@@ -142,6 +142,8 @@ def test_after_a_kill_of_the_kernel_the_plant_closes_within_its_bound(tmp_path: 
     assert judge(tmp_path, case, reports, {**RUN, **STOPPED}).difference == ""
     reports["plant"][name] = bad
     assert judge(tmp_path, case, reports, {**RUN, **STOPPED}).verdict == "failed"
+    reports["plant"]["late_windows"] = 1
+    assert judge(tmp_path, case, reports, {**RUN, **STOPPED}).verdict == "inconclusive"
 
 
 @pytest.mark.verifies("SWR-HIL-013", technique="fault_injection", polarity="violation")
@@ -190,8 +192,13 @@ def test_a_difference_to_virtual_time_or_a_failure_ends_with_status_1(tmp_path: 
 
 @pytest.mark.verifies("SWR-HIL-012", technique="requirements_based")
 def test_an_inconclusive_run_is_repeated_at_most_twice(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    calls = []
-    monkeypatch.setattr(Run, "run", lambda self: calls.append(1) or FINE)
+    calls: list[Run] = []
+
+    def run(self: Run) -> RunFacts:
+        calls.append(self)
+        return FINE
+
+    monkeypatch.setattr(Run, "run", run)
     verdicts = iter(["inconclusive", "passed", "inconclusive", "inconclusive", "inconclusive", "failed"])
     monkeypatch.setattr(command, "_judge_virtually", lambda *_: "passed")
     monkeypatch.setattr(command, "evaluate", lambda *_: make_result(next(verdicts)))

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "../../tests/feed.hpp"
 #include "hil_controller.hpp"
 #include "hil_system.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "tests/feed.hpp"
 
 namespace safe_arm {
 namespace {
@@ -98,7 +98,7 @@ class DriveEncoderTest : public ::testing::Test {
     mamori::safety::ArmOutputs outputs_{};
     mamori::ports::virtual_time::VirtualWatchdog mirror_{kWatchdogTimeout};
     LinkWatchdog watchdog_{mirror_};
-    DriveEncoder sut_{outputs_, watchdog_, hil::supervisor};
+    DriveEncoder sut_{outputs_, watchdog_, hil::supervisor, hil::supervision};
 };
 
 TEST_F(DriveEncoderTest, SendsTheOutputsWithFrameAndWatchdogServices) {
