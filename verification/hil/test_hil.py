@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 from mamori_tools.host.exit_status import EXIT_MISSING
+from mamori_tools.host.project import ROOT, Project
 
 SHORT = ("--fault", "corruption_drive", "--fault", "none", "--kills", "1")
 LONG = ("--scenarios", "100", "--kills", "60")
@@ -77,6 +78,25 @@ def test_the_log_of_a_run_has_the_messages_of_all_links(short_run: list[dict[str
     assert short_run
     log = (folder / "none-1" / "lcm.log").read_bytes()
     assert min(log.count(channel) for channel in (b"ARM_DEVICES", b"ARM_DRIVES", b"ARM_STATE", b"ARM_COMMAND")) > 1000
+
+
+@pytest.mark.verifies("SWR-HIL-015", technique="back_to_back")
+def test_two_replays_of_a_log_send_the_same_messages(short_run: list[dict[str, Any]], folder: Path, tmp_path: Path) -> None:
+    assert short_run
+    project = Project(ROOT)
+    results = []
+    for name in ("first", "second"):
+        (tmp_path / name).mkdir()
+        command = [str(project.safe_arm.with_name("hil_kernel")), "--replay", str(folder / "none-1" / "lcm.log"), "--frames", "2700",
+                   "--model", str(project.model), "--motion", str(folder / "motion.txt"), "--out", str(tmp_path / name)]  # fmt: skip
+        subprocess.run(command, check=True)
+        results.append(json.loads((tmp_path / name / "replay.json").read_text(encoding="utf-8")))
+
+    assert results[0] == results[1]
+    assert results[0]["sent"] == 2700
+    # A window that the host delayed changes the recorded outputs, not the replayed ones.
+    is_disturbed = bool(next(case for case in short_run if case["id"] == "none-1")["figure"])
+    assert is_disturbed or results[0]["equal"] >= 2600, results[0]
 
 
 @pytest.mark.long

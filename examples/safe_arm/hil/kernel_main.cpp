@@ -11,7 +11,9 @@
 #include "hil_program.hpp"
 #include "hil_system.hpp"
 #include "mamori/ports/posix_rt/machine.hpp"
+#include "mamori/ports/virtual_time/machine.hpp"
 #include "model_check.hpp"
+#include "replay.hpp"
 
 namespace {
 
@@ -141,6 +143,30 @@ nlohmann::ordered_json make_report(const RealTimeMachine& machine, const Watcher
             {"injected", hil::drive_sink.get_injected_count() + hil::state_sink.get_injected_count()}};
 }
 
+/// In virtual time. @return the exit status.
+int replay(const HilOptions& options, const mamori::sim::ArmModel& model) {
+    static Replay devices;
+    const std::string reason = devices.open(options.replay);
+    if (!reason.empty()) {
+        return fail_hil(kName, kHilExitUsage, reason);
+    }
+    static mamori::ports::virtual_time::Machine<hil::kHilSystem> machine;
+    machine.get_executives().get(0U).set_observer(&hil::supervision);
+    if (hil::reader.configure(get_encoder_scale(model)) != Status::kOk ||
+        hil::watch_components() != Status::kOk || machine.run(options.run.frames, devices) != Status::kOk) {
+        return fail_hil(kName, kHilExitFailed, "the system does not start");
+    }
+    const std::optional<std::uint32_t> first = devices.get_first_difference();
+    return write_hil_report(kName, options.run.out, "replay.json",
+                            {{"schema", "mamori.hil_replay/1"},
+                             {"sent", devices.get_sent_count()},
+                             {"equal", devices.get_equal_count()},
+                             {"first_difference", first.has_value() ? nlohmann::ordered_json(*first)
+                                                                    : nlohmann::ordered_json(nullptr)},
+                             {"hash", std::to_string(devices.get_hash())},
+                             {"final_state", get_name(hil::supervisor.get_state())}});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -154,6 +180,9 @@ int main(int argc, char** argv) {
     const std::string refusal = load_inputs(options.run.model, options.run.motion, loaded, track);
     if (!refusal.empty()) {
         return fail_hil(kName, kHilExitUsage, refusal);
+    }
+    if (!options.replay.empty()) {
+        return replay(options, *loaded.model);
     }
     mamori::sim::FaultPlan fault = options.run.fault;
     fault.at = fault.at + kMotionStart;

@@ -42,7 +42,7 @@ STOPPED = {
     # The plant closes by itself; its record ends with the last report of the supervisor.
     "drive": Expected("Safe", ("Sto",), ("WatchdogExpired", "SupervisorSilent", "MeasurementStale"), WITHIN_S, True),
 }  # fmt: skip
-"""The result if no valid message passes a link any more."""
+"""The result if no valid message passes a link."""
 
 STOPPING = ("corruption", "loss", "addressing")
 """Errors that leave no valid message while they last. A delay stops the arm, even for a single message: the others wait behind it."""

@@ -24,7 +24,7 @@ PROJECT = Project(ROOT)
 JOIN = ("from socket import *; s = socket(AF_INET, SOCK_DGRAM); s.setsockopt(SOL_SOCKET, SO_REUSEPORT, 1); "
         "s.bind(('127.0.0.1', 7667))")  # fmt: skip
 STAY = f"{JOIN}; import time; time.sleep(60)"
-END = f"{JOIN}; import time; time.sleep(0.3)"
+END = f"{JOIN}; import time; time.sleep(1.5)"
 
 
 @pytest.fixture
@@ -37,8 +37,8 @@ def case() -> HilCase:
 @pytest.fixture
 def start(tmp_path: Path, case: HilCase, monkeypatch: pytest.MonkeyPatch):  # type: ignore[no-untyped-def]
     """Makes a run of programs with these texts; default: all join, kernel and plant end in time."""
-    monkeypatch.setattr(processes, "JOIN_S", 5.0)
-    monkeypatch.setattr(processes, "SPARE_S", 3.0)
+    monkeypatch.setattr(processes, "JOIN_S", 30.0)
+    monkeypatch.setattr(processes, "SPARE_S", 20.0)
 
     def make(texts: Mapping[str, str], changed: HilCase | None = None) -> Run:
         own = {}
@@ -73,7 +73,7 @@ def test_a_complete_run_has_no_problem_and_leaves_no_process(start, tmp_path: Pa
     facts = start({}).run()
 
     assert facts.problem == ""
-    assert 0.3 <= facts.wall_s < 8.0
+    assert facts.wall_s >= 1.5
     assert list_left(tmp_path) == []
 
 
@@ -109,7 +109,7 @@ def test_a_process_that_does_not_join_the_network_is_named(start, tmp_path: Path
     ("controller", END, "the controller ended early with status 0"),
 ])  # fmt: skip
 def test_a_process_that_fails_during_the_run_is_named(name: str, text: str, problem: str, start, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
-    texts = {"kernel": f"{JOIN}; import time; time.sleep(2)", "plant": f"{JOIN}; import time; time.sleep(2)", name: text}
+    texts = {"kernel": f"{JOIN}; import time; time.sleep(8)", "plant": f"{JOIN}; import time; time.sleep(8)", name: text}
 
     assert start(texts).run().problem == problem
     assert list_left(tmp_path) == []
@@ -129,12 +129,12 @@ def test_a_run_that_does_not_end_is_stopped(start, tmp_path: Path, monkeypatch: 
 @pytest.mark.verifies("SWR-HIL-009", technique="fault_injection", polarity="violation")
 def test_an_interrupted_run_leaves_no_process(start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:  # type: ignore[no-untyped-def]
     def interrupt(self: Run) -> str:
-        assert len(list_left(tmp_path)) == 4
+        assert [child.poll() for child in self._children.values()] == [None] * 4
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Run, "_wait", interrupt)
     with pytest.raises(KeyboardInterrupt):
-        start({}).run()
+        start({"plant": STAY, "kernel": STAY}).run()
     assert list_left(tmp_path) == []
 
 

@@ -95,6 +95,17 @@ TEST(HilProgramTest, WrongArgumentsAreRefusedWithStatusTwo) {
     }
 }
 
+TEST(HilProgramTest, AFileThatIsNoLogIsNotReplayed) {
+    verifies("SWR-HIL-015", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const std::string common = std::string{" --model "} + SAFE_ARM_MODEL_FILE + " --motion " +
+                               SAFE_ARM_MOTION_FILE + " --out /tmp/unused --frames 10 2> /dev/null --replay ";
+    for (const char* log : {"/dev/null", "/no/such/file", SAFE_ARM_MOTION_FILE}) {
+        const std::string command = HIL_KERNEL_PROGRAM + common + log;
+        const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe)
+        EXPECT_EQ(WEXITSTATUS(status), 2) << log;
+    }
+}
+
 TEST(HilProgramTest, AUrlThatCannotBeOpenedIsRefusedByEachProgram) {
     verifies("SWR-HIL-005", Technique::kFaultInjection, Polarity::kViolation);
     const std::string common = std::string{" --model "} + SAFE_ARM_MODEL_FILE + " --motion " +
