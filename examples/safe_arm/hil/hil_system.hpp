@@ -7,7 +7,7 @@
 #ifndef EXAMPLES_SAFE_ARM_HIL_HIL_SYSTEM_HPP
 #define EXAMPLES_SAFE_ARM_HIL_HIL_SYSTEM_HPP
 
-#include <array>
+#include <cstdint>
 
 #include "arm_reader.hpp"
 #include "drive_gate.hpp"
@@ -16,8 +16,11 @@
 #include "joint_monitor.hpp"
 #include "link_errors.hpp"
 #include "mamori/kernel/record/event_log.hpp"
-#include "mamori/kernel/system/system.hpp"
+#include "mamori/kernel/run/devices.hpp"
 #include "mamori/ports/lcm/link_components.hpp"
+#include "mamori/ports/posix_rt/frame_clock.hpp"
+#include "mamori/ports/posix_rt/machine_options.hpp"
+#include "mamori/ports/virtual_time/virtual_host.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
 #include "mamori/safety/supervision/execution_supervisor.hpp"
 #include "safety_supervisor.hpp"
@@ -55,37 +58,21 @@ extern DriveGate gate;
 extern DriveEncoder encoder;
 extern mamori::ports::lcm::LinkSender<DriveMessage> drive_sender;
 
-/// As with the arm in one process, the gate uses the command of its frame, which the monitor checks in the
-/// next one. Controller and plant reply in the gaps before and after the window `act`; a later reply is used
-/// in the next frame.
-inline constexpr auto kHilSystem = mamori::system(
-    mamori::frame(kFrame), mamori::trace_hash(),
-    mamori::window(
-        "protect", 0_us, 400_us, mamori::budget(390_us),
-        mamori::run(device_receiver, device_image, reader, filter, hang_point, monitor, supervisor)),
-    mamori::window("control", 400_us, 200_us, mamori::budget(190_us), mamori::run(view, state_sender)),
-    mamori::window("act", 600_us, 390_us, mamori::budget(380_us),
-                   mamori::run(command_receiver, gate, encoder, drive_sender)),
-    mamori::connect(device_receiver.out, device_image.device, mamori::any_age()),
-    mamori::connect(device_receiver.out, filter.device, mamori::any_age()),
-    mamori::connect(reader.reading, filter.in, mamori::any_age()),
-    mamori::connect(filter.out, monitor.reading, mamori::any_age()),
-    mamori::connect(filter.out, supervisor.reading, mamori::any_age()),
-    mamori::connect(command_receiver.out, monitor.command, mamori::any_age()),
-    mamori::connect(gate.drive, monitor.drive, mamori::any_age()),
-    mamori::connect(monitor.state, supervisor.arm_state, mamori::any_age()),
-    mamori::connect(monitor.state, view.state, mamori::any_age()),
-    mamori::connect(supervisor.stop, view.stop, mamori::any_age()),
-    mamori::connect(view.out, state_sender.in, mamori::any_age()),
-    mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
-    mamori::connect(command_receiver.out, gate.command, mamori::any_age()),
-    mamori::connect(supervisor.stop, encoder.stop, mamori::any_age()),
-    mamori::connect(command_receiver.out, encoder.command, mamori::any_age()),
-    mamori::connect(encoder.out, drive_sender.in, mamori::any_age()));
-
 /// Puts the components under supervision, the controller's link in local scope. @return kOk;
 /// kPreconditionNotMet (done before).
 mamori::Status watch_components() noexcept;
+
+/// Makes the system in real time, under supervision. One per process. @return its time line.
+const mamori::ports::posix_rt::FrameClock& make_real_time(
+    const mamori::ports::posix_rt::MachineOptions& options);
+/// After make_real_time(). @return that of posix_rt::Machine::run().
+mamori::Status run_in_real_time(std::uint64_t frames, mamori::Devices& devices) noexcept;
+const mamori::ports::posix_rt::MachineReport& get_report() noexcept;
+
+/// The system in virtual time, under supervision. @return that of virtual_time::Machine::run().
+mamori::Status run_in_virtual_time(std::uint64_t frames, mamori::Devices& devices) noexcept;
+mamori::ports::virtual_time::VirtualHost& get_virtual_host() noexcept;
+std::uint64_t get_virtual_trace_hash() noexcept;
 
 }  // namespace safe_arm::hil
 

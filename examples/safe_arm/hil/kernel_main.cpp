@@ -10,8 +10,8 @@
 #include "hil_ends.hpp"
 #include "hil_program.hpp"
 #include "hil_system.hpp"
-#include "mamori/ports/posix_rt/machine.hpp"
-#include "mamori/ports/virtual_time/machine.hpp"
+#include "mamori/ports/posix_rt/frame_clock.hpp"
+#include "mamori/ports/posix_rt/machine_options.hpp"
 #include "model_check.hpp"
 #include "replay.hpp"
 
@@ -22,7 +22,6 @@ using mamori::Duration;
 using mamori::Instant;
 using mamori::Status;
 namespace lcm = mamori::ports::lcm;
-using RealTimeMachine = mamori::ports::posix_rt::Machine<hil::kHilSystem>;
 using mamori::ports::posix_rt::MachineOptions;
 using mamori::ports::posix_rt::MachineReport;
 
@@ -118,8 +117,8 @@ nlohmann::ordered_json to_s(std::int64_t ns) {
     return ns < 0 ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(to_seconds(Duration{ns}));
 }
 
-nlohmann::ordered_json make_report(const RealTimeMachine& machine, const Watcher& watcher, Status status) {
-    const MachineReport& report = machine.get_report();
+nlohmann::ordered_json make_report(const Watcher& watcher, Status status) {
+    const MachineReport& report = hil::get_report();
     const mamori::safety::FaultIndex first = hil::supervisor.get_first_fault();
     return {{"schema", "mamori.hil_kernel/1"},
             {"status", status == Status::kOk ? "ok" : describe(report.failed_step)},
@@ -150,10 +149,9 @@ int replay(const HilOptions& options, const mamori::sim::ArmModel& model) {
     if (!reason.empty()) {
         return fail_hil(kName, kHilExitUsage, reason);
     }
-    static mamori::ports::virtual_time::Machine<hil::kHilSystem> machine;
-    machine.get_executives().get(0U).set_observer(&hil::supervision);
     if (hil::reader.configure(get_encoder_scale(model)) != Status::kOk ||
-        hil::watch_components() != Status::kOk || machine.run(options.run.frames, devices) != Status::kOk) {
+        hil::watch_components() != Status::kOk ||
+        hil::run_in_virtual_time(options.run.frames, devices) != Status::kOk) {
         return fail_hil(kName, kHilExitFailed, "the system does not start");
     }
     const std::optional<std::uint32_t> first = devices.get_first_difference();
@@ -205,19 +203,16 @@ int main(int argc, char** argv) {
     machine_options.outputs = {&close_outputs, nullptr};
     static const std::array<int, 1U> processors{find_last_processor()};
     machine_options.processors = processors;
-    static RealTimeMachine machine{machine_options};
-    static Watcher watcher{machine.get_clock(), options.run.frames};
+    static Watcher watcher{hil::make_real_time(machine_options), options.run.frames};
     if (hil::reader.configure(get_encoder_scale(*loaded.model)) != Status::kOk ||
         hil::watch_components() != Status::kOk) {
         return fail_hil(kName, kHilExitFailed, "the system does not start");
     }
-    machine.get_executives().get(0U).set_observer(&hil::supervision);
-    const Status status = machine.run(options.run.frames, watcher);
+    const Status status = hil::run_in_real_time(options.run.frames, watcher);
     g_link.close();
-    const int written =
-        write_hil_report(kName, options.run.out, "kernel.json", make_report(machine, watcher, status));
+    const int written = write_hil_report(kName, options.run.out, "kernel.json", make_report(watcher, status));
     if (status != Status::kOk) {
-        return fail_hil(kName, kHilExitFailed, describe(machine.get_report().failed_step));
+        return fail_hil(kName, kHilExitFailed, describe(hil::get_report().failed_step));
     }
     return written;
 }

@@ -5,7 +5,6 @@
 
 #include "arm_start.hpp"
 #include "hil_program.hpp"
-#include "mamori/ports/virtual_time/machine.hpp"
 #include "mamori/simbody_sim/computed_torque_controller.hpp"
 #include "model_check.hpp"
 #include "virtual_hil.hpp"
@@ -45,18 +44,16 @@ int main(int argc, char** argv) {
     plant.set_observer(&record.get_verdict());
     HilPlant hil_plant{plant, fault, record};
     static HilController controller{track, law, motion_start};
-    static mamori::ports::virtual_time::Machine<hil::kHilSystem> machine;
-    VirtualHil devices{hil_plant, controller, machine.get_host_of<0U>(), fault, options.error};
-    machine.get_executives().get(0U).set_observer(&hil::supervision);
+    VirtualHil devices{hil_plant, controller, hil::get_virtual_host(), fault, options.error};
     if (hil::reader.configure(get_encoder_scale(*loaded.model)) != Status::kOk ||
-        hil::watch_components() != Status::kOk || machine.run(options.run.frames, devices) != Status::kOk) {
+        hil::watch_components() != Status::kOk ||
+        hil::run_in_virtual_time(options.run.frames, devices) != Status::kOk) {
         return fail_hil(kName, kHilExitFailed, "the system does not start");
     }
     if (!hil_plant.is_sound()) {
         return fail_hil(kName, kHilExitFailed, "the simulated plant diverged");
     }
     const std::string unwritten =
-        record.write(hil::event_log,
-                     {hil_plant.get_frame_count(), machine.get_executives().get(0U).get_trace_hash(), 0.0});
+        record.write(hil::event_log, {hil_plant.get_frame_count(), hil::get_virtual_trace_hash(), 0.0});
     return unwritten.empty() ? kHilExitOk : fail_hil(kName, kHilExitFailed, unwritten);
 }
