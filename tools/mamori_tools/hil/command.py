@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
     write_text(programs.motion, canonical_text(motion))
     network.enter_own_network()
     screen = Screen()
-    screen.say(f"hil: {len(chosen)} runs on {network.URL} in a network namespace of its own")
+    screen.say(f"hil: cases: {len(chosen)}, on {network.URL} in a network namespace of their own")
     screen.say(f"hil: to join it, as root: nsenter --net=/proc/{os.getpid()}/ns/net lcm-spy")
     results = [_run_case(case, programs, out, number, len(chosen), screen) for number, case in enumerate(chosen, start=1)]
     return _report(results, out, screen)

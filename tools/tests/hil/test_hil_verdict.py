@@ -74,6 +74,10 @@ def test_a_second_sender_or_a_wrong_message_fails_with_the_channel(tmp_path: Pat
     result = judge(tmp_path, NONE, reports)
     assert result.verdict == "failed"
     assert f"{{'{sign}': 1}} on {channel}; stop any other sender" in result.difference
+    reports["kernel"]["missed"] = 3
+    assert judge(tmp_path, NONE, reports).verdict == "failed", "a disturbed host makes no wrong message"
+    reports[process][link]["is_closed"] = True
+    assert judge(tmp_path, NONE, reports).verdict == "passed"
 
 
 @pytest.mark.verifies("SWR-HIL-011", technique="fault_injection", polarity="violation")
