@@ -45,7 +45,7 @@ DriveGate gate{outputs};
 DriveEncoder encoder{outputs, watchdog, supervisor, supervision};
 mamori::ports::lcm::LinkSender<DriveMessage> drive_sender{"drive_sender", drive_sink};
 
-// Beside its components: the compiler then compares their addresses under every sanitizer.
+// In the file of its components: the compiler then compares their addresses under every sanitizer.
 /// As with the arm in one process, the gate uses the command of its frame, which the monitor checks in the
 /// next one. Controller and plant reply in the gaps before and after the window `act`; a later reply is used
 /// in the next frame.
