@@ -38,7 +38,7 @@ READERS = [
     ("bench", "--list"), ("mutate", "--list"),
 ]  # fmt: skip
 WRITERS = [("demo",), ("run",), ("test",), ("build",), ("verify",), ("timing", "x"), ("cost", "x"), ("bench",), ("mutate",), ("fuzz",),
-           ("prove", "safe-state")]  # fmt: skip
+           ("prove", "safe-state"), ("hil",)]  # fmt: skip
 TRACE_WRITERS = [
     ("report",), ("review", "--all"), ("init",), ("new", "SWR"), ("record", "--results", "x", "--", "true"),
     ("import", "csv", "x", "--into", "requirements/x"), ("bundle", "--out", "x"),

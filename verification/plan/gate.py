@@ -106,6 +106,16 @@ def safe_state_step() -> Step:
     )
 
 
+def hil_step() -> Step:
+    """The arm as three processes: a motion, an error on a link, and one kill of each process. Skipped results state why this host has none."""
+    return Step(
+        name="hardware in the loop",
+        commands=((*PYTEST, "verification/hil"),),
+        needs=(BUILD,),
+        result="hil.xml",
+    )
+
+
 HOST_TOOLS = Step(name="tests of the host tools", commands=((*PYTEST, *PARALLEL),), result="python-tools.xml")
 REPORT_IN_BROWSER = Step(name="report in a browser", commands=((*PYTEST, "trace/tests/browser"),), result="report-browser.xml")
 LAYERS = Step(name="layer check", commands=((*PYTHON, "verification.checks.check_layers"),), tier=Tier.QUICK)
@@ -170,7 +180,7 @@ def long_steps() -> tuple[Step, ...]:
         )
 
     return (
-        Step(name="long tests", commands=((*PYTEST, "-m", "long", *(f"verification/{folder}" for folder in ("mutation", "proofs", "safe_state"))),),
+        Step(name="long tests", commands=((*PYTEST, "-m", "long", *(f"verification/{folder}" for folder in ("hil", "mutation", "proofs", "safe_state"))),),
              needs=(BUILD,), result="long-tests.xml", tier=Tier.ALL),
         Step(name=f"fuzz {LONG_FUZZ_S} s each", commands=(make_fuzz_command(LONG_FUZZ_S),), tier=Tier.ALL),
         campaign("time", "610000", "1000", "1", "storm"),
@@ -244,6 +254,7 @@ def list_test_steps(project: Project, campaign: Action, tier: Tier, mutation_min
         *strength_steps(),
         campaign_step(campaign),
         timing_step(),
+        hil_step(),
         cost_step(),
         *long_steps(),
         *trace_steps(*(("--allow-missing",) if tier == Tier.QUICK else ())),

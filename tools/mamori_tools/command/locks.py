@@ -51,7 +51,7 @@ def list_written(arguments: argparse.Namespace) -> list[Path]:
     match arguments.command:
         case "demo" | "run" | "test" | "fuzz" | "prove":
             return [ROOT]
-        case "bench" | "mutate":
+        case "bench" | "hil" | "mutate":
             return [] if arguments.list else [ROOT]
         case "build" | "verify":
             return _with_project(arguments.project)

@@ -20,7 +20,7 @@ from mamori_tools.host.process import Tick
 
 SIGN_OF_LIFE_S = 30.0
 NEWS_LENGTH = 70
-STYLES = {"passed": "green", "failed": "bold red", "skipped": "yellow"}
+STYLES = {"passed": "green", "failed": "bold red", "skipped": "yellow", "inconclusive": "yellow"}
 
 
 class _Output(Console):

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil_system.hpp"
+
+#include <array>
+
+#include "arm_assumptions.hpp"
+#include "mamori/kernel/system/system.hpp"
+#include "mamori/ports/posix_rt/machine.hpp"
+#include "mamori/ports/virtual_time/machine.hpp"
+#include "mamori/safety/supervision/watch_check.hpp"
+
+namespace safe_arm::hil {
+
+mamori::safety::ArmInputs inputs;
+mamori::safety::ArmOutputs outputs;
+static std::array<mamori::Event, 256U> event_storage;
+mamori::EventLog event_log{event_storage};
+mamori::ports::virtual_time::VirtualWatchdog watchdog_mirror{kWatchdogTimeout};
+static LinkWatchdog watchdog{watchdog_mirror};
+
+static ArmChecks checks{watchdog_mirror};
+static constexpr std::array kAssumptions = make_arm_assumptions(checks);
+static_assert(mamori::safety::checks_all<kAssumptions, ArmAssumption::kCount>());
+static mamori::safety::AssumptionMonitor assumptions{kAssumptions};
+static DecisionFlow decision_flow;
+
+DeviceQueue device_queue;
+CommandQueue command_queue;
+FaultySink drive_sink{Link::kDrive, kDriveE2e};
+FaultySink state_sink{Link::kState, kStateE2e};
+
+mamori::ports::lcm::LinkReceiver<DeviceMessage, DeviceQueue> device_receiver{
+    "device_receiver", device_queue, {kHilMaxDelta}};
+DeviceImage device_image{inputs};
+ArmReader reader{inputs};
+ReadingFilter filter;
+HangPoint hang_point;
+JointMonitor monitor;
+SafetySupervisor supervisor{supervision, command_receiver, watchdog, event_log, assumptions, decision_flow};
+ControllerView view;
+mamori::ports::lcm::LinkSender<StateMessage> state_sender{"state_sender", state_sink};
+mamori::ports::lcm::LinkReceiver<CommandMessage, CommandQueue> command_receiver{
+    "command_receiver", command_queue, {kHilMaxDelta}};
+DriveGate gate{outputs};
+DriveEncoder encoder{outputs, watchdog, supervisor, supervision};
+mamori::ports::lcm::LinkSender<DriveMessage> drive_sender{"drive_sender", drive_sink};
+
+// In the file of its components: the compiler then compares their addresses under every sanitizer.
+/// As with the arm in one process, the gate uses the command of its frame, which the monitor checks in the
+/// next one. Controller and plant reply in the gaps before and after the window `act`; a later reply is used
+/// in the next frame.
+static constexpr auto kHilSystem = mamori::system(
+    mamori::frame(kFrame), mamori::trace_hash(),
+    mamori::window(
+        "protect", 0_us, 400_us, mamori::budget(390_us),
+        mamori::run(device_receiver, device_image, reader, filter, hang_point, monitor, supervisor)),
+    mamori::window("control", 400_us, 200_us, mamori::budget(190_us), mamori::run(view, state_sender)),
+    mamori::window("act", 600_us, 390_us, mamori::budget(380_us),
+                   mamori::run(command_receiver, gate, encoder, drive_sender)),
+    mamori::connect(device_receiver.out, device_image.device, mamori::any_age()),
+    mamori::connect(device_receiver.out, filter.device, mamori::any_age()),
+    mamori::connect(reader.reading, filter.in, mamori::any_age()),
+    mamori::connect(filter.out, monitor.reading, mamori::any_age()),
+    mamori::connect(filter.out, supervisor.reading, mamori::any_age()),
+    mamori::connect(command_receiver.out, monitor.command, mamori::any_age()),
+    mamori::connect(gate.drive, monitor.drive, mamori::any_age()),
+    mamori::connect(monitor.state, supervisor.arm_state, mamori::any_age()),
+    mamori::connect(monitor.state, view.state, mamori::any_age()),
+    mamori::connect(supervisor.stop, view.stop, mamori::any_age()),
+    mamori::connect(view.out, state_sender.in, mamori::any_age()),
+    mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
+    mamori::connect(command_receiver.out, gate.command, mamori::any_age()),
+    mamori::connect(supervisor.stop, encoder.stop, mamori::any_age()),
+    mamori::connect(command_receiver.out, encoder.command, mamori::any_age()),
+    mamori::connect(encoder.out, drive_sender.in, mamori::any_age()));
+MAMORI_CHECK(kHilSystem);
+
+static mamori::safety::ExecutionStorageFor<kHilSystem> supervision_storage;
+mamori::safety::ExecutionSupervisor supervision{supervision_storage, kLatenessMax};
+
+/// Budgets bound the times; here only silence counts, since a shared host can stretch a run.
+static constexpr mamori::safety::ComponentLimits kSafetyLimits{
+    kAliveLimits, {0_us, 390_us}, mamori::safety::SupervisionScope::kGlobal};
+static constexpr std::array kLimits = {
+    mamori::safety::watch(reader, kSafetyLimits),
+    mamori::safety::watch(filter, kSafetyLimits),
+    mamori::safety::watch(monitor, kSafetyLimits),
+    mamori::safety::watch(supervisor, kSafetyLimits),
+    mamori::safety::watch(gate, kSafetyLimits),
+    mamori::safety::watch(encoder, kSafetyLimits),
+    mamori::safety::watch(command_receiver,
+                          {kAliveLimits, {0_us, 390_us}, mamori::safety::SupervisionScope::kLocal})};
+static_assert(mamori::safety::is_watch_list_of<kHilSystem, kLimits>());
+
+mamori::Status watch_components() noexcept {
+    return supervision.watch(kLimits);
+}
+
+using RealTimeMachine = mamori::ports::posix_rt::Machine<kHilSystem>;
+using VirtualMachine = mamori::ports::virtual_time::Machine<kHilSystem>;
+
+/// @param[in] options of the first call.
+static RealTimeMachine& get_real_time_machine(const mamori::ports::posix_rt::MachineOptions& options) {
+    static RealTimeMachine machine{options};
+    return machine;
+}
+static VirtualMachine& get_virtual_machine() {
+    static VirtualMachine machine;
+    return machine;
+}
+
+const mamori::ports::posix_rt::FrameClock& make_real_time(
+    const mamori::ports::posix_rt::MachineOptions& options) {
+    RealTimeMachine& machine = get_real_time_machine(options);
+    machine.get_executives().get(0U).set_observer(&supervision);
+    return machine.get_clock();
+}
+
+mamori::Status run_in_real_time(std::uint64_t frames, mamori::Devices& devices) noexcept {
+    return get_real_time_machine({}).run(frames, devices);
+}
+
+const mamori::ports::posix_rt::MachineReport& get_report() noexcept {
+    return get_real_time_machine({}).get_report();
+}
+
+mamori::Status run_in_virtual_time(std::uint64_t frames, mamori::Devices& devices) noexcept {
+    get_virtual_machine().get_executives().get(0U).set_observer(&supervision);
+    return get_virtual_machine().run(frames, devices);
+}
+
+mamori::ports::virtual_time::VirtualHost& get_virtual_host() noexcept {
+    return get_virtual_machine().get_host_of<0U>();
+}
+
+std::uint64_t get_virtual_trace_hash() noexcept {
+    return get_virtual_machine().get_executives().get(0U).get_trace_hash();
+}
+
+}  // namespace safe_arm::hil
