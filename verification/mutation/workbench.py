@@ -33,7 +33,8 @@ MEMORY_KIB = 4 * 1024 * 1024
 FILE_BLOCKS = 64 * 1024  # number of blocks of 512 bytes that a test may write
 LIBRARIES = ("-lgtest_main", "-lgtest", "-lpthread")
 # Process ids of their own: a mutant of a port may send a signal to any process that it can name. They all end with the first one.
-ENCLOSED = ("unshare", "--pid", "--fork", "--kill-child", "--mount-proc", "--", "/bin/sh", "-c", '"$@"; exit $?', "sh")
+# A shell starts jobs in the background with SIGINT ignored, and ports handle this signal.
+ENCLOSED = ("env", "--default-signal=INT,QUIT", "unshare", "--pid", "--fork", "--kill-child", "--mount-proc", "--", "/bin/sh", "-c", '"$@"; exit $?', "sh")
 TEST_FLAGS = ("-O0", "-w", "-UNDEBUG", "-ffp-contract=off")
 COMPARED_FLAGS = ("-O2", "-g0", "-w", "-fno-ident", "-UNDEBUG", "-ffp-contract=off")
 

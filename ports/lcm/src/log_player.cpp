@@ -61,7 +61,6 @@ Status LogPlayer::open(const char* path) noexcept {
     }
     file_ = ::open(path, O_RDONLY | O_CLOEXEC);
     offset_ = 0U;
-    end_ = 0U;
     event_count_ = 0U;
     first_us_ = 0;
     due_us_ = 0;
