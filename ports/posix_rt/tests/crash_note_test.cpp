@@ -11,6 +11,7 @@
 #include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/kernel/record/flight_recorder.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -56,6 +57,18 @@ TEST(CrashNoteTest, ZerosAreNoCrashAndEachOtherChangeIsDamage) {
         EXPECT_EQ(decode_crash_note(bytes, read), CrashNoteState::kDamaged) << bit;
     }
     expect_same(read, kNote);
+}
+
+TEST(CrashNoteTest, FileWithoutRoomForANoteIsRejected) {
+    verifies("SWR-PRT-033", Technique::kBoundaryValues, Polarity::kViolation);
+    std::vector<std::byte> bytes(kCrashNoteSize);
+    CrashNote note;
+    const Span<std::byte> small{bytes.data(), kCrashNoteSize - 1U};
+
+    EXPECT_EQ(get_recorder_region({bytes.data(), kCrashNoteSize}).size(), 0U);
+    EXPECT_EQ(read_crash_note({bytes.data(), kCrashNoteSize}, note), CrashNoteState::kEmpty);
+    EXPECT_CHECK_FAILS(static_cast<void>(get_recorder_region(small)), "crash_note.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(read_crash_note(small, note)), "crash_note.cpp", 1);
 }
 
 TEST(CrashNoteTest, NoteWithoutASignalIsDamaged) {
