@@ -20,14 +20,16 @@ COMPILER = "clang++-19"
 
 @dataclass(frozen=True)
 class Layer:
-    """A layer whose own tests must find its faults: the required share of faults, the layers and libraries that it or its tests use, and the
-    target that generates the headers of its tests."""
+    """A layer whose own tests must find its faults: the required share of faults, the layers and libraries that it or its tests use, the
+    target that generates the headers of its tests, and a program that compiles sources again with options of its own, whose tests are
+    left out."""
 
     name: str
     bar: float
     below: tuple[str, ...] = ()
     libraries: tuple[str, ...] = ()
     generated: str = ""
+    special: str = ""
 
     @property
     def is_port(self) -> bool:
@@ -41,7 +43,7 @@ LAYERS = (
     Layer("ports/conformance", 0.90, TARGET_LAYERS),
     Layer("ports/lcm", 0.90, TARGET_LAYERS, ("-llcm",), "lcm_official_test"),
     Layer("ports/posix_rt", 0.90, (*TARGET_LAYERS, "ports/conformance")),
-    Layer("ports/virtual_time", 0.90, (*TARGET_LAYERS, "ports/conformance")),
+    Layer("ports/virtual_time", 0.90, (*TARGET_LAYERS, "ports/conformance"), special="call_chain_test"),
 )
 
 
@@ -99,7 +101,7 @@ def read_sources(root: Path, build: Path, layer: Layer, jobs: int = 1) -> Source
     _run_cmake(argv)
     if layer.generated:
         _run_cmake(("cmake", "--build", str(build), "--target", layer.generated, "--parallel", str(jobs)))
-    entries = drop_second_objects(root, json.loads((build / "compile_commands.json").read_text(encoding="utf-8")))
+    entries = drop_program(json.loads((build / "compile_commands.json").read_text(encoding="utf-8")), layer.special)
     units = _select_units(entries, root / layer.name, root / layer.name)
     if not any(unit.is_test for unit in units):
         raise WorkError(f"{root / layer.name} has no test that CMake knows; nothing could be killed")
@@ -113,21 +115,17 @@ def _run_cmake(argv: Sequence[str]) -> None:
         raise WorkError(f"'{' '.join(argv)}' failed:\n{(done.stdout + done.stderr).strip()[-2000:]}")
 
 
-def drop_second_objects(root: Path, entries: Sequence[dict[str, str]]) -> list[dict[str, str]]:
-    """Drops the programs that compile sources of a library again with special options. Their tests check these options, so the objects of
-    the library do not serve them."""
-    programs: dict[str, list[dict[str, str]]] = {}
-    for entry in entries:
-        programs.setdefault(entry["command"].partition(" -o ")[2].partition(".dir/")[0], []).append(entry)
-    kinds = {name: {"tests" in Path(entry["file"]).relative_to(root).parts for entry in own} for name, own in programs.items()}
-    return [entry for name, own in programs.items() if len(kinds[name]) == 1 for entry in own]
+def drop_program(entries: Sequence[dict[str, str]], program: str) -> list[dict[str, str]]:
+    """The entries without those of `program`."""
+    return [entry for entry in entries if f"/{program}.dir/" not in entry["command"]]
 
 
 def _select_units(entries: Sequence[dict[str, str]], folder: Path, base: Path) -> list[Unit]:
-    """Units below `folder`, with paths relative to `base`. Each unit occurs once, even if several programs compile it."""
+    """Units below `folder`, with paths relative to `base`. Each unit occurs once, even if several programs compile it: as
+    the library does, whose entries come first."""
     units = {
         path: Unit(path.relative_to(base).as_posix(), keep_flags(shlex.split(entry["command"])))
-        for entry in entries
+        for entry in reversed(entries)
         if (path := Path(entry["file"])).is_relative_to(folder)
     }
     return [units[path] for path in sorted(units)]

@@ -63,12 +63,17 @@ TEST(CrashNoteTest, FileWithoutRoomForANoteIsRejected) {
     verifies("SWR-PRT-033", Technique::kBoundaryValues, Polarity::kViolation);
     std::vector<std::byte> bytes(kCrashNoteSize);
     CrashNote note;
-    const Span<std::byte> small{bytes.data(), kCrashNoteSize - 1U};
+    const auto get_rest = [&](std::size_t size) {
+        return get_recorder_region(Span<std::byte>{bytes.data(), size}).size();
+    };
+    const auto read = [&](std::size_t size) {
+        return read_crash_note(Span<const std::byte>{bytes.data(), size}, note);
+    };
 
-    EXPECT_EQ(get_recorder_region({bytes.data(), kCrashNoteSize}).size(), 0U);
-    EXPECT_EQ(read_crash_note({bytes.data(), kCrashNoteSize}, note), CrashNoteState::kEmpty);
-    EXPECT_CHECK_FAILS(static_cast<void>(get_recorder_region(small)), "crash_note.hpp", 1);
-    EXPECT_CHECK_FAILS(static_cast<void>(read_crash_note(small, note)), "crash_note.cpp", 1);
+    EXPECT_EQ(get_rest(kCrashNoteSize), 0U);
+    EXPECT_EQ(read(kCrashNoteSize), CrashNoteState::kEmpty);
+    EXPECT_CHECK_FAILS(static_cast<void>(get_rest(kCrashNoteSize - 1U)), "crash_note.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(read(kCrashNoteSize - 1U)), "crash_note.cpp", 1);
 }
 
 TEST(CrashNoteTest, NoteWithoutASignalIsDamaged) {

@@ -236,6 +236,22 @@ TEST_F(GridWatchTest, ATickThatDoesNotComeClosesTheOutputsWithoutTheRunner) {
     EXPECT_EQ(shut_count_, 1);
 }
 
+TEST_F(GridWatchTest, AWatchThatIsOpenedAgainWatches) {
+    verifies("SWR-PRT-031", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(sut_.open(), Status::kOk);
+    sut_.close();
+    ASSERT_EQ(sut_.open(), Status::kOk);
+    wait_for_looks(2U);
+    run_for_ever();
+    while (beats_[0].get_due() == GridBeat::kNever) {
+        std::this_thread::yield();
+    }
+    source_.is_stuck = true;
+
+    wait_until_latched();
+    EXPECT_EQ(sut_.get_finding().fault, GridFault::kOverdue);
+}
+
 TEST_F(GridWatchTest, AGuardThatHangsWithItsComponentIsFoundAtTheCloseOfTheWindow) {
     verifies("SWR-PRT-031", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_EQ(sut_.open(), Status::kOk);

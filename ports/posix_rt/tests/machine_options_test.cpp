@@ -4,14 +4,17 @@
 #include "mamori/ports/posix_rt/machine_options.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "mamori/kernel/system/system.hpp"
+#include "mamori/ports/posix_rt/crash_handlers.hpp"
 #include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "support/patient_options.hpp"
@@ -80,6 +83,32 @@ TEST(MachineOptionsTest, OptionOutsideItsRangeIsRefused) {
     options.recorder = "unused.rec";
     options.recorder_capacity = 0U;
     EXPECT_EQ(run(options), Status::kBadParameter);
+}
+
+TEST(MachineOptionsTest, OptionAtTheEndOfItsRangeIsNotRefused) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kNominal);
+    CrashHandlers taken;  // ends each run after the check of its options
+    ASSERT_EQ(taken.install({[](void*) noexcept {}, nullptr, {}, 0U, FrameClock::at_epoch(0)}), Status::kOk);
+    const std::string path = ::testing::TempDir() + "mamori_options_" + std::to_string(::getpid());
+    const auto run = [](const MachineOptions& options) {
+        const auto sut = std::make_unique<Machine<kRefused>>(options);
+        EXPECT_EQ(sut->run(1U), Status::kPreconditionNotMet);
+        return sut->get_report().failed_step;
+    };
+
+    MachineOptions options = make_options();
+    options.priority = MachineOptions::kPriorityMin;
+    EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
+    options.priority = MachineOptions::kPriorityMax;
+    EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
+    options = make_options();
+    options.window_stack = kThreadStackMin;
+    options.runner_stack = kThreadStackMin;
+    options.watch.lateness = Duration{0};
+    options.recorder = path.c_str();
+    options.recorder_capacity = 1U;
+    EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
+    static_cast<void>(std::remove(path.c_str()));
 }
 
 TEST(MachineOptionsTest, RecorderFileThatCannotBeOpenedEndsTheRunBeforeItsStart) {

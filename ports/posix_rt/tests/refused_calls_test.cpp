@@ -18,6 +18,7 @@
 #include <set>
 #include <string>
 
+#include "mamori/ports/posix_rt/crash_stack.hpp"
 #include "mamori/ports/posix_rt/mapped_file.hpp"
 #include "mamori/ports/posix_rt/partition_process.hpp"
 #include "mamori/ports/posix_rt/provisions.hpp"
@@ -202,6 +203,27 @@ TEST(RefusedCallsTest, LockedMemoryIsUnknownWhereLinuxDoesNotTell) {
               0);
 }
 
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kHasCrashStackOfASanitizer = true;
+#elif defined(__has_feature)
+constexpr bool kHasCrashStackOfASanitizer = __has_feature(address_sanitizer);
+#else
+constexpr bool kHasCrashStackOfASanitizer = false;
+#endif
+
+TEST(RefusedCallsTest, ACrashStackThatLinuxDoesNotTakeIsReported) {
+    verifies("SWR-PRT-026", Technique::kFaultInjection, Polarity::kViolation);
+    if (kHasCrashStackOfASanitizer) {
+        GTEST_SKIP() << "verdict=not-shown: this sanitizer calls sigaltstack() itself";
+    }
+    EXPECT_EQ(run_in_process([] {
+                  refuse({SYS_sigaltstack});
+                  CrashStack sut;
+                  EXPECT_EQ(sut.take(), Status::kOutOfResources);
+              }),
+              0);
+}
+
 class RefusedFileTest : public ::testing::Test {
   protected:
     void TearDown() override { static_cast<void>(::unlink(path_.c_str())); }
@@ -246,6 +268,34 @@ TEST_F(RefusedFileTest, AnExistingFileThatCannotBeUsedKeepsItsSize) {
     struct stat facts{};
     ASSERT_EQ(::stat(path_.c_str(), &facts), 0);
     EXPECT_EQ(facts.st_size, 4096);
+}
+
+TEST_F(RefusedFileTest, ANewFileWithTheFirstNumberIsRemovedLikewise) {
+    verifies("SWR-REC-010", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([&] {
+                  ASSERT_EQ(::close(0), 0);
+                  refuse({SYS_flock});
+                  MappedFile sut;
+                  EXPECT_EQ(sut.open(path_.c_str(), 4096U), Status::kError);
+              }),
+              0);
+    EXPECT_FALSE(exists());
+}
+
+TEST_F(RefusedFileTest, AFileThatOpensAfterAFailureReportsNone) {
+    verifies("SWR-REC-010", Technique::kStateTransition);
+    MappedFile sut;
+    ASSERT_EQ(sut.open("/nowhere/file", 4096U), Status::kError);
+    ASSERT_EQ(sut.get_system_error(), ENOENT);
+
+    const mode_t before = ::umask(0);
+    EXPECT_EQ(sut.open(path_.c_str(), 4096U), Status::kOk);
+    static_cast<void>(::umask(before));
+    EXPECT_EQ(sut.get_system_error(), 0);
+    EXPECT_EQ(sut.get_error(), MappedFileError::kNone);
+    struct stat facts{};
+    ASSERT_EQ(::stat(path_.c_str(), &facts), 0);
+    EXPECT_EQ(facts.st_mode & 0777U, 0644U) << "others read it";
 }
 
 TEST_F(RefusedFileTest, AFlushThatFailsIsReported) {
