@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -110,7 +111,9 @@ extern "C" {
 }
 
 int __wrap_raise(int signal) {
+    const int error = errno;
     keep_counters();
+    errno = error;
     return __real_raise(signal);
 }
 }

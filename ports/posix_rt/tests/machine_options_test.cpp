@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cstdio>
 #include <limits>
@@ -109,6 +110,29 @@ TEST(MachineOptionsTest, OptionAtTheEndOfItsRangeIsNotRefused) {
     options.recorder_capacity = 1U;
     EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
     static_cast<void>(std::remove(path.c_str()));
+}
+
+Idle g_first;
+Idle g_second;
+constexpr auto kTwoCores = system(frame(10_ms), window("first", 2_ms, 4_ms, budget(4_ms), run(g_first)),
+                                  window("second", 2_ms, 4_ms, core(1U), budget(4_ms), run(g_second)));
+
+TEST(MachineOptionsTest, EachCoreOrNoneHasAProcessor) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kViolation);
+    CrashHandlers taken;  // ends each run after the check of its options
+    ASSERT_EQ(taken.install({[](void*) noexcept {}, nullptr, {}, 0U, FrameClock::at_epoch(0)}), Status::kOk);
+    static constexpr std::array<int, 2U> kProcessors{0, 0};
+    const auto run = [](std::size_t count) {
+        MachineOptions options = make_options();
+        options.processors = {kProcessors.data(), count};
+        const auto sut = std::make_unique<Machine<kTwoCores>>(options);
+        EXPECT_NE(sut->run(1U), Status::kOk);
+        return sut->get_report().failed_step;
+    };
+
+    EXPECT_EQ(run(0U), MachineStep::kCrashHandlers);
+    EXPECT_EQ(run(1U), MachineStep::kOptions);
+    EXPECT_EQ(run(2U), MachineStep::kCrashHandlers);
 }
 
 TEST(MachineOptionsTest, RecorderFileThatCannotBeOpenedEndsTheRunBeforeItsStart) {
