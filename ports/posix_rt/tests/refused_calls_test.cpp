@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: each system call that Linux refuses is reported with its cause, and nothing is left behind. Method: a
+// Goal: each system call that fails is reported with its cause, and nothing is left behind. Method: a
 // filter of system calls (seccomp) in a process of its own, one call at a time.
 #include <fcntl.h>
 #include <gtest/gtest.h>
