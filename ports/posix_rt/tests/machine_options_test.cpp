@@ -112,6 +112,8 @@ TEST(MachineOptionsTest, OptionAtTheEndOfItsRangeIsNotRefused) {
     static_cast<void>(std::remove(path.c_str()));
 }
 
+Idle g_stopped;
+constexpr auto kStopped = system(frame(10_ms), window("idle", 2_ms, 4_ms, budget(4_ms), run(g_stopped)));
 Idle g_first;
 Idle g_second;
 constexpr auto kTwoCores = system(frame(10_ms), window("first", 2_ms, 4_ms, budget(4_ms), run(g_first)),
@@ -133,6 +135,23 @@ TEST(MachineOptionsTest, EachCoreOrNoneHasAProcessor) {
     EXPECT_EQ(run(0U), MachineStep::kCrashHandlers);
     EXPECT_EQ(run(1U), MachineStep::kOptions);
     EXPECT_EQ(run(2U), MachineStep::kCrashHandlers);
+}
+
+TEST(MachineOptionsTest, PrioritiesLeaveRoomForTheDistancesOfTheManual) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kNominal);
+    EXPECT_EQ(MachineOptions::kPriorityMin, 1 + 5) << "windows are 5 below";
+    EXPECT_EQ(MachineOptions::kPriorityMax, 99 - 10) << "the watchdog is 10 above";
+}
+
+TEST(MachineOptionsTest, RunThatIsStoppedBeforeItsFirstFrameMeasuresNothing) {
+    verifies("SWR-PRT-070", Technique::kStateTransition, Polarity::kNominal);
+    static Machine<kStopped> sut{make_options()};
+    sut.request_stop();
+
+    ASSERT_EQ(sut.run(5U), Status::kOk);
+    EXPECT_EQ(sut.get_report().openings.opened, 0U);
+    EXPECT_EQ(sut.get_report().longest_sample, Duration{0});
+    EXPECT_EQ(sut.get_report().longest_apply, Duration{0});
 }
 
 TEST(MachineOptionsTest, RecorderFileThatCannotBeOpenedEndsTheRunBeforeItsStart) {
