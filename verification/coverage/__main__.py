@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measures line, branch and MC/DC coverage of kernel and safety by their own tests, and compares the gaps with the list of accepted gaps.
+"""Measures line, branch and MC/DC coverage of kernel, safety and ports by their own tests, and compares the gaps with the list of accepted gaps.
 
     python -P -m verification.coverage [--jobs N]
 
@@ -59,7 +59,7 @@ def describe(verdict: Verdict) -> list[str]:
 def main(argv: list[str] | None = None) -> int:
     """@return the exit status."""
     parser = argparse.ArgumentParser(prog="verification.coverage", allow_abbrev=False,
-                                     description="Line, branch and MC/DC coverage of kernel and safety by their own tests.")  # fmt: skip
+                                     description="Line, branch and MC/DC coverage of kernel, safety and ports by their own tests.")  # fmt: skip
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="parallel compilations")
     jobs = parser.parse_args(argv).jobs
     if jobs < 1:

@@ -84,15 +84,16 @@ def read_list(path: Path = LIST) -> list[Row]:
         raise WorkError(f"{path}: {error}") from error
     rows: list[Row] = []
     for number, table in enumerate(tables, start=1):
-        if set(table) - {"condition", "by_chance"} != {"file", "function", "reason"}:
-            raise WorkError(f"{path}: row {number} needs file, function and reason, and may have condition and by_chance;"
+        if set(table) - {"condition", "conditions", "by_chance"} != {"file", "function", "reason"} or {"condition", "conditions"} <= set(table):
+            raise WorkError(f"{path}: row {number} needs file, function and reason, and may have by_chance, and condition or conditions;"
                             f" it has {sorted(table)}")
-        row = Row(table["file"], table["function"], table.get("condition", ""), table["reason"].strip(), table.get("by_chance", False))
-        if not row.reason:
-            raise WorkError(f"{path}: row {number} ({row}) gives no reason")
-        if any(str(row) == str(other) for other in rows):
-            raise WorkError(f"{path}: row {number} ({row}) is there twice")
-        rows.append(row)
+        for condition in table.get("conditions", [table.get("condition", "")]):
+            row = Row(table["file"], table["function"], condition, table["reason"].strip(), table.get("by_chance", False))
+            if not row.reason:
+                raise WorkError(f"{path}: row {number} ({row}) gives no reason")
+            if any(str(row) == str(other) for other in rows):
+                raise WorkError(f"{path}: row {number} ({row}) is there twice")
+            rows.append(row)
     return rows
 
 

@@ -17,7 +17,7 @@ from typing import Any
 from mamori_tools.host.project import SANITIZED, Project
 from mamori_trace.base.errors import WorkError
 
-LAYERS = ("kernel", "safety")  # the tests of each layer must cover it
+LAYERS = ("kernel", "safety", "ports/conformance", "ports/lcm", "ports/posix_rt", "ports/virtual_time")  # the tests of each layer must cover it
 TEST_TIMEOUT_S = 600
 BUILD_TIMEOUT_S = 3600
 
@@ -27,13 +27,13 @@ def measure(root: Path, jobs: int) -> list[dict[str, Any]]:
     build = Project(root, SANITIZED).build
     run(("cmake", "-S", str(root), "--preset", SANITIZED))
     run(("cmake", "--build", str(build), "--target", *(f"{layer}/all" for layer in LAYERS), "--parallel", str(jobs)), BUILD_TIMEOUT_S)
-    return [measure_layer(root / layer, build, jobs) for layer in LAYERS]
+    return [measure_layer(root, layer, build, jobs) for layer in LAYERS]
 
 
-def measure_layer(folder: Path, build: Path, jobs: int) -> dict[str, Any]:
-    """Runs the test programs of the layer in `folder`. Skips programs that `./mamori test` has run since the build: their counters are
+def measure_layer(root: Path, layer: str, build: Path, jobs: int) -> dict[str, Any]:
+    """Runs the test programs of `layer`, a folder below `root`. Skips programs that `./mamori test` has run since the build: their counters are
     newer. @return the coverage of its sources. @raise WorkError."""
-    tests = build / folder.name
+    folder, tests = root / layer, build / layer
     listing = json.loads(run(("ctest", "--test-dir", str(tests), "--show-only=json-v1")))
     programs = {test["name"]: Path(test["command"][0]) for test in listing["tests"]}
     if not programs:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the tests of kernel and safety cover every condition, or the list states why not; unlisted gaps are found.
+# Goal: the tests of kernel, safety and ports cover every condition, or the list states why not; unlisted gaps are found.
 # Method: one measurement of the shipped layers; small programs with a seeded gap, compiled and run like their tests.
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ COMPILER = "clang++-19"
 FLAGS = ("-fprofile-instr-generate=/dev/null", "-fprofile-update=atomic", "-fcoverage-mapping", "-fcoverage-mcdc")
 FLUSH = Path(__file__).with_name("flush_on_death.cpp")
 GUARD = Path(__file__).with_name("refuse_unmeasured.sh")
-WRAPPED = "-Wl,--wrap=_exit,--wrap=_Exit"
+WRAPPED = "-Wl,--wrap=_exit,--wrap=_Exit,--wrap=raise"
 FUNCTION_BODY = re.compile(r"\)[\w\s]*\{")
 FORGOTTEN = "are_both<int>", "is_small(10)", "demand_in_child(1, 2)", "forgotten()"
 
@@ -140,7 +140,7 @@ def test_failing_test_program_is_no_measurement(tmp_path: Path) -> None:
     (tmp_path / "kernel" / "CTestTestfile.cmake").write_text(f"add_test(failing {program})\n", encoding="utf-8")
 
     with pytest.raises(WorkError, match=r"(?s)ended with status 8:.*1 test failed"):
-        measure_layer(ROOT / "kernel", tmp_path, 1)
+        measure_layer(ROOT, "kernel", tmp_path, 1)
 
 
 @pytest.mark.verifies("SWR-VER-001", technique="boundary_values")

@@ -22,7 +22,7 @@ from verification.mutation.sources import LAYERS, Layer, get_layer
 STORE = Path(__file__).resolve().with_name("baseline.toml")
 HEAD = """\
 # SPDX-License-Identifier: Apache-2.0
-# Mutation score of kernel and safety, file by file, as `./mamori mutate --store` found it. Written by that command only.
+# Mutation score of kernel, safety and ports, file by file, as `./mamori mutate --store` found it. Written by that command only.
 # `fingerprint` is that of the code in the mutated file, without comments and includes, with the former names of renamed.toml. The row of a
 # file whose code has changed since is invalid until the next run of its mutants.
 
@@ -77,6 +77,8 @@ class Standing:
             counts = self.layers.get(layer, Counts())
             measured = sum(get_layer(file) == layer for file in self.measured)
             left = [mutants for file, mutants in self.open_mutants.items() if get_layer(file) == layer]
+            if measured == 0 and not left:
+                continue
             score = f"{counts.score:.1%}" if counts.valid else "-"
             lines += [f"{layer.name}, stored whole runs: {score} ({counts.killed} of {counts.valid} killed; {measured} files,"
                       f" {counts.tried} mutants)",

@@ -94,7 +94,7 @@ def run_layers(root: Path, plan: Plan, jobs: int, progress: Callable[[Result, in
     for layer in LAYERS:
         mutants = [mutant for mutant in plan.mutants if get_layer(mutant.file) == layer]
         if mutants:
-            sources = read_sources(root, folder / "cmake", layer)
+            sources = read_sources(root, folder / "cmake", layer, jobs)
             with tempfile.TemporaryDirectory(prefix="work-", dir=folder) as work:
                 try_mutants(sources, mutants, plan.sources, Path(work), jobs, tally.note)
     return tally.make_report()
@@ -105,7 +105,7 @@ def choose_files(wanted: Sequence[str], known: Sequence[str]) -> tuple[str, ...]
     for name in wanted:
         if _normalise(name) not in known:
             nearest = nearest_names(name, known, "./mamori mutate --list shows them with their mutants")
-            raise InputError(f"mutate: '{name}' is no source or header of {' or '.join(layer.name for layer in LAYERS)}; {nearest}")
+            raise InputError(f"mutate: '{name}' is no source or header of kernel, safety or ports; {nearest}")
     return tuple(_normalise(name) for name in wanted) or tuple(known)
 
 
@@ -207,7 +207,7 @@ def read_standing(root: Path) -> baseline.Standing:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("files", nargs="*", metavar="FILE", help="source or header of kernel or safety; default: all")
+    parser.add_argument("files", nargs="*", metavar="FILE", help="source or header of kernel, safety or ports; default: all")
     parser.add_argument("--sample", type=at_least_one, metavar="N", help="try N of the changes (at least 1), chosen by the seed; default: all")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="integer that selects the sample; default: %(default)s")
     parser.add_argument("--list", action="store_true", help="show the changes without trying them")
@@ -226,8 +226,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 COMMAND = Command(
-    add_arguments, run, "the share of small faults in kernel and safety that the tests find",
-    "Changes one thing at a time in a copy of kernel or safety and runs the tests of the layer. A change that no test finds is shown as a diff. "
-    "Ends with the share of changes that were found, for each layer. The acceptance limits are 90 % for kernel and 95 % for safety.",
+    add_arguments, run, "the share of small faults in kernel, safety and ports that the tests find",
+    "Changes one thing at a time in a copy of kernel, safety or a port and runs the tests of the layer. A change that no test finds is shown as "
+    "a diff. Ends with the share of changes that were found, for each layer. The acceptance limits are 95 % for safety and 90 % for the others.",
     {1: "a share is below its limit, or something failed", 4: "stopped by --minutes before all changes were tried"},
     examples=("mutate --sample 20 --seed 7",))  # fmt: skip

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Goal: the tests of kernel and safety find most small faults, and the calculated score is correct.
+# Goal: the tests of kernel, safety and ports find most small faults, and the calculated score is correct.
 # Method: the stored result and a sample of each shipped layer; the weak layer.
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from verification.mutation.sources import LAYERS, Layer, Sources, list_files
 from verification.mutation.trial import KILLED, SURVIVED, Result
 from verification.tests.support.weak_layer import FILES, HEADER, LIMIT_LINE, SOURCE, find, run_all
 
-SAMPLES = {"kernel": 60, "safety": 40}
+SAMPLES = {"kernel": 60, "safety": 40, "ports/conformance": 30, "ports/lcm": 30, "ports/posix_rt": 30, "ports/virtual_time": 30}
 SEED = 1
 
 
@@ -50,7 +50,7 @@ def test_one_seed_gives_one_sample_and_another_seed_another(sources: Sources) ->
 
 @pytest.mark.verifies("SWR-VER-004", technique="error_guessing", polarity="violation")
 def test_file_that_is_none_of_the_kernels_is_refused_with_the_nearest() -> None:
-    with pytest.raises(InputError, match=r"'kernel/src/event_lock.cpp' is no source or header of kernel or safety.*kernel/src/record/event_log.cpp"):
+    with pytest.raises(InputError, match=r"'kernel/src/event_lock.cpp' is no source or header of kernel, safety or ports.*kernel/src/record/event_log.cpp"):
         choose_files(("kernel/src/event_lock.cpp",), ("kernel/src/record/event_log.cpp", "kernel/src/base/assert.cpp"))
 
 
@@ -58,7 +58,7 @@ def test_file_that_is_none_of_the_kernels_is_refused_with_the_nearest() -> None:
 def test_file_that_is_like_none_of_the_kernels_is_refused_in_one_short_line() -> None:
     with pytest.raises(InputError) as refusal:
         choose_files(("nothing.cpp",), tuple(f"kernel/include/mamori/kernel/unit_{i}.hpp" for i in range(200)))
-    assert str(refusal.value) == ("mutate: 'nothing.cpp' is no source or header of kernel or safety; "
+    assert str(refusal.value) == ("mutate: 'nothing.cpp' is no source or header of kernel, safety or ports; "
                                   "./mamori mutate --list shows them with their mutants")  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 # Method: the weak layer, changed if a test requires it.
 from __future__ import annotations
 
+import os
 import time
 from dataclasses import replace
 from typing import Any
@@ -14,7 +15,7 @@ from mamori_trace.base.errors import WorkError
 from verification.mutation import workbench
 from verification.mutation.operators import Mutant, make_mutants
 from verification.mutation.run import Report, Selection, make_plan, try_mutants
-from verification.mutation.sources import Sources, Unit, get_layer, keep_flags, list_files
+from verification.mutation.sources import Sources, Unit, drop_program, get_layer, keep_flags, list_files
 from verification.mutation.trial import (
     COMPANY,
     EQUIVALENT,
@@ -73,9 +74,38 @@ def test_layer_is_tried_on_what_it_stands_on(sources: Sources) -> None:
 def test_every_file_is_of_one_layer() -> None:
     files = list_files(ROOT)
 
-    assert [get_layer(file).name for file in files] == [file.partition("/")[0] for file in files]
-    assert {"kernel/src/base/assert.cpp", "safety/src/reaction/safe_state.cpp"} <= set(files)
+    folders = [file.split("/include/")[0].split("/src/")[0] for file in files]
+    assert [get_layer(file).name for file in files] == folders
+    assert {"kernel/src/base/assert.cpp", "safety/src/reaction/safe_state.cpp", "ports/lcm/src/byte_frame.cpp"} <= set(files)
     assert not any("/tests/" in file for file in files)
+
+
+@pytest.mark.verifies("SWR-VER-005", technique="interface")
+def test_program_with_options_of_its_own_is_left_out() -> None:
+    def compile_into(program: str, file: str) -> dict[str, str]:
+        return {"file": f"/{file}", "command": f"c++ -o a/CMakeFiles/{program}.dir/{file}.o -c {file}"}
+
+    kept = [compile_into("mamori_a", "src/one.cpp"), compile_into("a_special_test", "tests/one_test.cpp")]
+    special = [compile_into("special_test", "src/one.cpp"), compile_into("special_test", "tests/special_test.cpp")]
+
+    assert drop_program([*kept, *special], "special_test") == kept
+
+
+@pytest.mark.verifies("SWR-VER-008", technique="fault_injection", polarity="violation")
+def test_mutant_of_a_port_reaches_its_own_processes_only(sources: Sources) -> None:
+    """The test would end this process, and leaves a process behind."""
+    test = f"""\
+#include <signal.h>
+#include <unistd.h>
+TEST(Port, KillsWhatItCanName) {{
+    EXPECT_NE(kill({os.getpid()}, 0), 0);
+    if (fork() == 0) {{ sleep(600); }}
+}}
+"""
+    (sources.folder / "tests" / "limit_test.cpp").write_text(test, encoding="utf-8")
+    original = Baseline(replace(sources, is_enclosed=True), sources.root / "work", 1)
+
+    assert [Bench(original, "bench").check_original(test) for test in original.tests] == [""]
 
 
 @pytest.mark.verifies("SWR-VER-005", technique="error_guessing", polarity="violation")

@@ -32,6 +32,9 @@ SLOWEST_TEST_S = 240.0  # time limit on the unchanged layer, on a busy host
 MEMORY_KIB = 4 * 1024 * 1024
 FILE_BLOCKS = 64 * 1024  # number of blocks of 512 bytes that a test may write
 LIBRARIES = ("-lgtest_main", "-lgtest", "-lpthread")
+# Process ids of their own: a mutant of a port may send a signal to any process that it can name. They all end with the first one.
+# A shell starts jobs in the background with SIGINT ignored, and ports handle this signal.
+ENCLOSED = ("env", "--default-signal=INT,QUIT", "unshare", "--pid", "--fork", "--kill-child", "--mount-proc", "--", "/bin/sh", "-c", '"$@"; exit $?', "sh")
 TEST_FLAGS = ("-O0", "-w", "-UNDEBUG", "-ffp-contract=off")
 COMPARED_FLAGS = ("-O2", "-g0", "-w", "-fno-ident", "-UNDEBUG", "-ffp-contract=off")
 
@@ -237,12 +240,13 @@ class Bench:
         status, words = self._link(test, changed)
         if status != 0:
             return status, words
-        return self._run((str(self._program(test)), "--gtest_brief=1", *options), timeout_s, cwd=self.folder)
+        enclosed = ENCLOSED if self._sources.is_enclosed else ()
+        return self._run((*enclosed, str(self._program(test)), "--gtest_brief=1", *options), timeout_s, cwd=self.folder)
 
     def _link(self, test: Unit, changed: Mapping[str, Path], *options: str) -> tuple[int, str]:
         own = changed.get(test.path, self.baseline.get_object(test))
         others = [str(path) for name, path in changed.items() if not name.startswith("tests/")]
-        return self._run((COMPILER, str(own), *others, *map(str, self.baseline.archives), *LIBRARIES, *options,
+        return self._run((COMPILER, str(own), *others, *map(str, self.baseline.archives), *LIBRARIES, *self._sources.libraries, *options,
                      "-o", str(self._program(test))), COMPILE_TIMEOUT_S)  # fmt: skip
 
     def _program(self, test: Unit) -> Path:

@@ -156,7 +156,7 @@ def strength_steps() -> tuple[Step, ...]:
     """Test adequacy: coverage, detected mutants, and fuzzing findings (test_strength.md)."""
     folder = "verification"
     return (
-        Step(name="MC/DC of kernel and safety", commands=((*PYTEST, f"{folder}/coverage/test_coverage.py"),),
+        Step(name="MC/DC of kernel, safety and ports", commands=((*PYTEST, f"{folder}/coverage/test_coverage.py"),),
              needs=(f"tests {SANITIZED}",), result="strength-coverage.xml"),
         Step(name="mutation", commands=((*PYTEST, f"{folder}/mutation"),), result="strength-mutation.xml"),
         Step(name=f"fuzz {FUZZ_S} s each", commands=((*PYTEST, f"{folder}/fuzz/test_fuzz.py"), make_fuzz_command(FUZZ_S)), result="strength-fuzz.xml"),

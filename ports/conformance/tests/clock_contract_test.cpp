@@ -9,6 +9,7 @@
 
 #include "mamori/ports/conformance/rule_runner.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/rule_names.hpp"
 
 namespace mamori::ports::conformance {
 namespace {
@@ -97,6 +98,11 @@ TEST(ClockContractTest, ACompliantClockIsAccepted) {
     EXPECT_TRUE(explore(make(ClockFlaw::kNone, false), 3U).is_kept());
     EXPECT_TRUE(run_in_order(make(ClockFlaw::kOversleeps, false)).is_kept()) << "a busy host";
     EXPECT_TRUE(run_in_order(make(ClockFlaw::kRunsAlone, false)).is_kept()) << "as real time does";
+}
+
+TEST(ClockContractTest, EachRuleHasANameOfItsOwnAndARequirement) {
+    verifies("SWR-CNF-001", Technique::kInterface);
+    expect_named_rules(make(ClockFlaw::kNone, true));
 }
 
 }  // namespace

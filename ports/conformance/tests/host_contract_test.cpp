@@ -10,6 +10,7 @@
 #include "mamori/ports/conformance/rule_runner.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "support/exact_host.hpp"
+#include "support/rule_names.hpp"
 #include "support/thread_host.hpp"
 
 namespace mamori::ports::conformance {
@@ -104,6 +105,11 @@ TEST(HostContractTest, AStepThatRunsTwiceIsReportedInRealTimeToo) {
     const Report report = run_in_order(make_threaded(ThreadFlaw::kRunsStepTwice));
     ASSERT_FALSE(report.is_kept());
     EXPECT_NE(report.findings[0].find("ran twice"), std::string::npos) << report.to_text();
+}
+
+TEST(HostContractTest, EachRuleHasANameOfItsOwnAndARequirement) {
+    verifies("SWR-CNF-003", Technique::kInterface);
+    expect_named_rules(make_exact(HostFlaw::kNone));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "mamori/ports/conformance/rule_runner.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/rule_names.hpp"
 
 namespace mamori::ports::conformance {
 namespace {
@@ -144,6 +145,11 @@ TEST(StorageContractTest, ACompliantStorageIsAcceptedInEachOrder) {
 
     const Report report = explore(make(StorageFlaw::kNone), 6U);
     EXPECT_EQ(report.to_text(), "12 rules, 23328 sequences, 139968 steps, 13 states\n");
+}
+
+TEST(StorageContractTest, EachRuleHasANameOfItsOwnAndARequirement) {
+    verifies("SWR-CNF-007", Technique::kInterface);
+    expect_named_rules(make(StorageFlaw::kNone));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "mamori/ports/conformance/rule_runner.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
+#include "support/rule_names.hpp"
 
 namespace mamori::ports::conformance {
 namespace {
@@ -153,6 +154,11 @@ TEST(TimerContractTest, ACompliantTimerIsAcceptedInEachOrder) {
     EXPECT_TRUE(run_randomly(make(TimerFlaw::kNone), 1U, 2000U).is_kept());
     EXPECT_EQ(explore(make(TimerFlaw::kNone), 8U).to_text(),
               "6 rules, 6561 sequences, 52488 steps, 4 states\n");
+}
+
+TEST(TimerContractTest, EachRuleHasANameOfItsOwnAndARequirement) {
+    verifies("SWR-CNF-011", Technique::kInterface);
+    expect_named_rules(make(TimerFlaw::kNone));
 }
 
 }  // namespace

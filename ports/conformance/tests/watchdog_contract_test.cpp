@@ -10,6 +10,7 @@
 
 #include "mamori/ports/conformance/rule_runner.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/rule_names.hpp"
 
 namespace mamori::ports::conformance {
 namespace {
@@ -136,6 +137,11 @@ TEST(WatchdogContractTest, TimeThatPassesDuringReadingsHidesNoLargeDefect) {
           WatchdogFlaw::kTakesServiceWhenOpen, WatchdogFlaw::kRefusesInTime}) {
         EXPECT_FALSE(run_in_order(make(flaw, 10_ns)).is_kept()) << static_cast<int>(flaw);
     }
+}
+
+TEST(WatchdogContractTest, EachRuleHasANameOfItsOwnAndARequirement) {
+    verifies("SWR-CNF-006", Technique::kInterface);
+    expect_named_rules(make(WatchdogFlaw::kNone, 1_ns));
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ std::size_t read_all(int file, void* target, std::size_t size) noexcept {
     std::size_t done = 0U;
     while (done < size) {
         const ssize_t count = ::read(file, static_cast<char*>(target) + done, size - done);
-        if (count <= 0 && !(count < 0 && errno == EINTR)) {
+        const bool is_interrupted = count < 0 && errno == EINTR;
+        if (count <= 0 && !is_interrupted) {
             break;
         }
         done += count > 0 ? static_cast<std::size_t>(count) : 0U;
@@ -60,7 +61,6 @@ Status LogPlayer::open(const char* path) noexcept {
     }
     file_ = ::open(path, O_RDONLY | O_CLOEXEC);
     offset_ = 0U;
-    end_ = 0U;
     event_count_ = 0U;
     first_us_ = 0;
     due_us_ = 0;

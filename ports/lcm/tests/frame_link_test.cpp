@@ -10,6 +10,7 @@
 #include <poll.h>
 #include <pthread.h>
 #include <sys/ioctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <termios.h>
 #include <unistd.h>
@@ -18,6 +19,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -132,6 +134,78 @@ TEST_F(FrameLinkTest, AnUnusableAddressOrPortIsReportedWithItsCause) {
     FrameReceiverFor<Message> second(queue_);
     EXPECT_EQ(second.open_udp("127.0.0.1", receiver_.get_port()), Status::kError);
     EXPECT_EQ(second.get_fault(), LinkFault::kSocket);
+}
+
+TEST_F(FrameLinkTest, AnOpenTransportIsNotOpenedAgain) {
+    verifies("SWR-LCM-010", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(receiver_.open_udp("127.0.0.1", 0U), Status::kOk);
+    ASSERT_EQ(sender_.open_udp("127.0.0.1", receiver_.get_port()), Status::kOk);
+
+    EXPECT_EQ(sender_.open_udp("127.0.0.1", receiver_.get_port()), Status::kPreconditionNotMet);
+    EXPECT_EQ(sender_.open_serial("/dev/null", kSpeed), Status::kPreconditionNotMet);
+    EXPECT_EQ(receiver_.open_serial("/dev/null", kSpeed), Status::kPreconditionNotMet);
+    EXPECT_EQ(receiver_.get_fault(), LinkFault::kNone);
+    ASSERT_EQ(send(make_message(4)), Status::kOk);
+    EXPECT_EQ(receive(), 4);
+}
+
+TEST_F(FrameLinkTest, AReceiverThatIsDestroyedFreesItsPort) {
+    verifies("SWR-LCM-010", Technique::kStateTransition, Polarity::kNominal);
+    std::uint16_t port = 0U;
+    {
+        FrameReceiverFor<Message> earlier(queue_);
+        ASSERT_EQ(earlier.open_udp("127.0.0.1", 0U), Status::kOk);
+        port = earlier.get_port();
+    }
+    EXPECT_EQ(receiver_.open_udp("127.0.0.1", port), Status::kOk);
+}
+
+/// Leaves this process `count` more descriptors while it exists.
+class FewDescriptors final {
+  public:
+    explicit FewDescriptors(rlim_t count) {
+        EXPECT_EQ(::getrlimit(RLIMIT_NOFILE, &before_), 0);
+        const int next = ::dup(0);
+        EXPECT_EQ(::close(next), 0);
+        const rlimit now{static_cast<rlim_t>(next) + count, before_.rlim_max};
+        EXPECT_EQ(::setrlimit(RLIMIT_NOFILE, &now), 0);
+    }
+    FewDescriptors(const FewDescriptors&) = delete;
+    FewDescriptors& operator=(const FewDescriptors&) = delete;
+    ~FewDescriptors() { EXPECT_EQ(::setrlimit(RLIMIT_NOFILE, &before_), 0); }
+
+  private:
+    rlimit before_{};
+};
+
+TEST_F(FrameLinkTest, AProcessWithoutDescriptorsIsToldWhatIsMissing) {
+    verifies("SWR-LCM-010", Technique::kFaultInjection, Polarity::kViolation);
+    {
+        const FewDescriptors none(0U);
+        EXPECT_EQ(receiver_.open_udp("127.0.0.1", 0U), Status::kError);
+        EXPECT_EQ(receiver_.get_fault(), LinkFault::kSocket);
+    }
+    {
+        const FewDescriptors one(1U);
+        EXPECT_EQ(receiver_.open_udp("127.0.0.1", 0U), Status::kError);
+        EXPECT_EQ(receiver_.get_fault(), LinkFault::kThread);
+        EXPECT_FALSE(receiver_.is_receiving());
+        EXPECT_EQ(receiver_.get_port(), 0U);
+    }
+    const FewDescriptors two(2U);
+    EXPECT_EQ(receiver_.open_udp("127.0.0.1", 0U), Status::kOk);
+}
+
+TEST(LinkFaultTest, EachFaultHasAnAdviceOfItsOwn) {
+    verifies("SWR-LCM-010", Technique::kEquivalenceClasses, Polarity::kNominal);
+    std::set<std::string> advice;
+    for (int fault = 0; fault <= static_cast<int>(LinkFault::kThread); ++fault) {
+        advice.insert(get_advice(static_cast<LinkFault>(fault)));
+    }
+    EXPECT_EQ(advice.size(), static_cast<std::size_t>(LinkFault::kThread) + 1U);
+    EXPECT_EQ(advice.count(""), 0U);
+    EXPECT_EQ(advice.count("invalid fault"), 0U);
+    EXPECT_STREQ(get_advice(static_cast<LinkFault>(200)), "invalid fault");
 }
 
 TEST_F(FrameLinkTest, ATransportThatOpensReportsNoFault) {
@@ -289,6 +363,10 @@ TEST_F(SerialLinkTest, AFullLineLosesMessagesAndDoesNotWait) {
         status = send(make_message(i));
     }
     EXPECT_EQ(status, Status::kOutOfResources);
+    EXPECT_EQ(send(make_message(1)), Status::kOutOfResources);  // no octet of it has room
+    ::close(master_);
+    master_ = -1;
+    EXPECT_EQ(send(make_message(1)), Status::kError);
 }
 
 TEST_F(SerialLinkTest, SettingsOfAnEarlierProgramDoNotRemain) {
@@ -309,19 +387,29 @@ TEST_F(SerialLinkTest, SettingsOfAnEarlierProgramDoNotRemain) {
 
 TEST_F(SerialLinkTest, ALineThatKeepsOneOfItsSettingsIsReported) {
     verifies("SWR-LCM-010", Technique::kFaultInjection, Polarity::kViolation);
-    for (const tcflag_t kept : {static_cast<tcflag_t>(CSTOPB), static_cast<tcflag_t>(B9600)}) {
-        termios line = get_settings();
-        line.c_cflag = (line.c_cflag & ~static_cast<tcflag_t>(CBAUD)) | B9600 | kept;
+    const termios before = get_settings();
+    for (const std::string kept : {"stop bits", "speed", "input", "output", "local"}) {
+        termios line = before;
+        line.c_cflag = (line.c_cflag & ~static_cast<tcflag_t>(CBAUD)) | B9600 | CSTOPB;
+        line.c_iflag |= IXON;
+        line.c_oflag |= OPOST;
+        line.c_lflag |= ICANON;
         ASSERT_EQ(::tcsetattr(line_, TCSANOW, &line), 0);
         termios locked{};
-        locked.c_cflag = kept == CSTOPB ? kept : static_cast<tcflag_t>(CBAUD);
+        locked.c_cflag = static_cast<tcflag_t>(kept == "stop bits" ? CSTOPB : kept == "speed" ? CBAUD : 0);
+        locked.c_iflag = static_cast<tcflag_t>(kept == "input" ? IXON : 0);
+        locked.c_oflag = static_cast<tcflag_t>(kept == "output" ? OPOST : 0);
+        locked.c_lflag = static_cast<tcflag_t>(kept == "local" ? ICANON : 0);
         if (::ioctl(line_, TIOCSLCKTRMIOS, &locked) != 0) {
             GTEST_SKIP() << "to lock a setting of a line needs root";
         }
 
         EXPECT_EQ(receiver_.open_serial(path_.c_str(), kSpeed), Status::kError) << kept;
         EXPECT_EQ(receiver_.get_fault(), LinkFault::kLine) << kept;
+        locked = termios{};
+        ASSERT_EQ(::ioctl(line_, TIOCSLCKTRMIOS, &locked), 0);
     }
+    EXPECT_EQ(receiver_.open_serial(path_.c_str(), kSpeed), Status::kOk);
 }
 
 TEST_F(SerialLinkTest, OctetsFromBeforeTheOpenCallAreNotReceived) {

@@ -334,10 +334,43 @@ TEST_F(BusyQueueTest, MessagesOfAnEarlierRunAreDroppedIfTheWriterWasFasterOnce) 
     EXPECT_EQ(busy_receiver_.get_news().used, 1U);
 }
 
+TEST_F(BusyQueueTest, AStartWithAWriterThatIsAlwaysFasterEnds) {
+    verifies("SWR-LCM-008", Technique::kFaultInjection, Polarity::kViolation);
+    busy_queue_.busy = 100;
+
+    EXPECT_EQ(busy_receiver_.on_startup({0, Instant{now_}}), Status::kOk);
+    EXPECT_EQ(busy_queue_.busy, 100 - static_cast<int>(BusyQueue::kCapacity));
+}
+
+TEST_F(LinkComponentsTest, WithoutANewValueNothingIsSent) {
+    verifies("SWR-LCM-008", Technique::kRequirementsBased, Polarity::kNominal);
+    sink_.last.clear();
+
+    EXPECT_EQ(sender_.on_execute({0, Instant{now_}}), Status::kOk);
+    EXPECT_TRUE(sink_.last.empty());
+}
+
+TEST_F(LinkComponentsTest, AValueThatCannotBeEncodedIsNotSentAndReported) {
+    verifies("SWR-LCM-008", Technique::kFaultInjection, Polarity::kViolation);
+    sink_.last.clear();
+    Cloud invalid{};
+    invalid.last.m = static_cast<lcm_sample::Mode>(3);
+    source_.write(invalid);
+    ++now_;
+    ASSERT_TRUE(source_.publish(Instant{now_}));
+    sender_.in.take(source_.get_published_sample());
+
+    EXPECT_EQ(sender_.on_execute({0, Instant{now_}}), Status::kBadParameter);
+    EXPECT_TRUE(sink_.last.empty());
+    EXPECT_EQ(sender_.get_failed_count(), 0U);
+}
+
 TEST_F(LinkComponentsTest, MessagesOfAnEarlierRunAreDropped) {
     verifies("SWR-LCM-008", Technique::kStateTransition, Polarity::kViolation);
-    send(1);
-    deliver(sink_.last);
+    for (std::size_t i = 0U; i < Queue::kCapacity; ++i) {
+        send(1);
+        deliver(sink_.last);
+    }
 
     EXPECT_EQ(receiver_.on_startup({0, Instant{now_}}), Status::kOk);
     EXPECT_FALSE(receive());

@@ -200,6 +200,35 @@ TEST_F(LogPlayerTest, LongNamesLargeMessagesAndRandomOctetsAreHandled) {
     EXPECT_EQ(queue_.get_counts().accepted, 0U);
 }
 
+TEST_F(LogPlayerTest, ALargeMessageIsOversizedFromOneOctetAboveTheBufferOn) {
+    verifies("SWR-LCM-012", Technique::kBoundaryValues, Polarity::kViolation);
+    add_event(0, "STATE", std::vector<std::byte>(LogPlayer::kMessageMax));
+    ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
+    ASSERT_EQ(open(), Status::kOk);
+    EXPECT_EQ(player_.deliver_until(Instant{0}), Status::kPreconditionNotMet);
+    EXPECT_EQ(queue_.get_counts().foreign, 1U);  // it reached the queue, which examined it
+    player_.close();
+
+    log_.clear();
+    add_event(0, "STATE", std::vector<std::byte>(LogPlayer::kMessageMax + 1U));
+    ASSERT_EQ(open(), Status::kOk);
+    EXPECT_EQ(player_.deliver_until(Instant{0}), Status::kPreconditionNotMet);
+    EXPECT_EQ(queue_.get_counts().foreign, 1U);
+    EXPECT_EQ(queue_.get_counts().oversized, 1U);
+}
+
+TEST_F(LogPlayerTest, ALargeMessageThatIsCutOrHasAnImpossibleSizeIsReported) {
+    verifies("SWR-LCM-012", Technique::kFaultInjection, Polarity::kViolation);
+    add_event(0, "STATE", std::vector<std::byte>(LogPlayer::kMessageMax + 10'000U));
+    log_.pop_back();
+    EXPECT_EQ(open(), Status::kError);
+
+    log_.clear();
+    add_event(0, "STATE", {});
+    log_[24U] = static_cast<char>(0x80);  // the first octet of the size
+    EXPECT_EQ(open(), Status::kError);
+}
+
 TEST_F(LogPlayerTest, MoreChannelsThanTheLimitAreRejected) {
     verifies("SWR-LCM-012", Technique::kBoundaryValues, Polarity::kViolation);
     for (std::size_t i = 0U; i < LogPlayer::kChannelsMax; ++i) {
@@ -219,6 +248,18 @@ TEST_F(LogPlayerTest, AnInvalidChannelIsRejected) {
     }
     EXPECT_EQ(player_.receive(longest.c_str(), queue_), Status::kOk);
     EXPECT_EQ(player_.get_fault(), LinkFault::kNone);
+}
+
+TEST_F(LogPlayerTest, OnlyLettersDigitsAndFourOtherCharactersAreAllowedInAChannel) {
+    verifies("SWR-LCM-010", Technique::kBoundaryValues, Polarity::kViolation);
+    const std::string allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-/:";
+    for (int code = 1; code < 256; ++code) {
+        const std::string name{'a', static_cast<char>(code)};
+        LogPlayer player;
+        const bool is_allowed = allowed.find(static_cast<char>(code)) != std::string::npos;
+        EXPECT_EQ(player.receive(name.c_str(), queue_), is_allowed ? Status::kOk : Status::kBadParameter)
+            << code;
+    }
 }
 
 }  // namespace

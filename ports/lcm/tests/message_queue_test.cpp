@@ -52,6 +52,8 @@ TEST_F(MessageQueueTest, MessagesComeOutOnceInOrderWithTheirSize) {
     EXPECT_EQ(message_[message_.size() - 1U], std::byte{2});
     EXPECT_EQ(sut_.take(message_), Status::kPreconditionNotMet);
     EXPECT_EQ(sut_.get_counts().accepted, 2U);
+    EXPECT_EQ(sut_.get_limits().size_min, Message::kSizeMin);
+    EXPECT_EQ(sut_.get_limits().size_max, Message::kSizeMax);
 }
 
 TEST_F(MessageQueueTest, ForeignTruncatedAndOversizedMessagesAreCountedAndDoNotReachTheQueue) {

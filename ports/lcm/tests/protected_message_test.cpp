@@ -89,5 +89,18 @@ TEST_F(ProtectedMessageTest, WhatCannotBeEncodedDoesNotMoveTheCounter) {
     EXPECT_EQ(protector_.get_counter(), 0U);
 }
 
+TEST_F(ProtectedMessageTest, AMessageThatIsTooLongForTheChannelIsReported) {
+    verifies("SWR-LCM-005", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr std::uint32_t kShortest = Message::kChannel.length_min;
+    static constexpr safety::SentIdChannel kShort{1U, kShortest, kShortest, 0U};
+    safety::E2eProtector<Message::Profile> protector(kShort);
+    const Span<std::byte> buffer{buffer_.data(), buffer_.size()};
+
+    EXPECT_TRUE(encode_protected<Message>(Cloud{}, protector, buffer).has_value());
+    Cloud longer{};
+    ASSERT_EQ(longer.octets.resize(1U), Status::kOk);
+    EXPECT_EQ(encode_protected<Message>(longer, protector, buffer).get_status(), Status::kBadParameter);
+}
+
 }  // namespace
 }  // namespace mamori::ports::lcm

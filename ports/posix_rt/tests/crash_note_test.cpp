@@ -11,6 +11,7 @@
 #include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/kernel/record/flight_recorder.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -56,6 +57,23 @@ TEST(CrashNoteTest, ZerosAreNoCrashAndEachFlippedBitIsDamage) {
         EXPECT_EQ(decode_crash_note(bytes, read), CrashNoteState::kDamaged) << bit;
     }
     expect_same(read, kNote);
+}
+
+TEST(CrashNoteTest, FileWithoutRoomForANoteIsRejected) {
+    verifies("SWR-PRT-033", Technique::kBoundaryValues, Polarity::kViolation);
+    std::vector<std::byte> bytes(kCrashNoteSize);
+    CrashNote note;
+    const auto get_rest = [&](std::size_t size) {
+        return get_recorder_region(Span<std::byte>{bytes.data(), size}).size();
+    };
+    const auto read = [&](std::size_t size) {
+        return read_crash_note(Span<const std::byte>{bytes.data(), size}, note);
+    };
+
+    EXPECT_EQ(get_rest(kCrashNoteSize), 0U);
+    EXPECT_EQ(read(kCrashNoteSize), CrashNoteState::kEmpty);
+    EXPECT_CHECK_FAILS(static_cast<void>(get_rest(kCrashNoteSize - 1U)), "crash_note.hpp", 1);
+    EXPECT_CHECK_FAILS(static_cast<void>(read(kCrashNoteSize - 1U)), "crash_note.cpp", 1);
 }
 
 TEST(CrashNoteTest, NoteWithoutASignalIsDamaged) {

@@ -18,6 +18,7 @@
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "support/fake_clock.hpp"
 
 namespace mamori::ports::posix_rt {
@@ -70,6 +71,20 @@ TEST_F(GridCheckTest, NothingIsDueBeforeTheFirstWindowAndAfterARest) {
     EXPECT_EQ(look_at(Instant{0} + 3601_s).fault, GridFault::kOverdue);
     beats_[0].rest();
     EXPECT_EQ(look_at(Instant{0} + 3602_s).fault, GridFault::kNone);
+}
+
+TEST_F(GridCheckTest, LimitsThatMeanNothingAreRejected) {
+    verifies("SWR-PRT-031", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto make = [this](const GridLimits& limits) {
+        const GridCheck check(beats_, limits);
+        static_cast<void>(check);
+    };
+
+    make({0_ms, Duration{1}, {Duration{1}, 1}});
+    EXPECT_CHECK_FAILS(make({Duration{-1}, Duration{1}, {Duration{1}, 1}}), "grid_watch.cpp", 1);
+    EXPECT_CHECK_FAILS(make({0_ms, 0_ms, {Duration{1}, 1}}), "grid_watch.cpp", 1);
+    EXPECT_CHECK_FAILS(make({0_ms, Duration{1}, {0_ms, 1}}), "grid_watch.cpp", 2);
+    EXPECT_CHECK_FAILS(make({0_ms, Duration{1}, {Duration{1}, 0}}), "grid_watch.cpp", 2);
 }
 
 TEST_F(GridCheckTest, AWindowMustStartAndEndAtItsPlannedInstants) {
@@ -220,6 +235,22 @@ TEST_F(GridWatchTest, AMissingTimerExpiryClosesTheOutputsWithoutTheRunner) {
     EXPECT_EQ(sut_.get_finding().core, 0U);
     EXPECT_GT(sut_.get_finding().seen, sut_.get_finding().due + kPatient.lateness);
     EXPECT_EQ(shut_count_, 1);
+}
+
+TEST_F(GridWatchTest, AWatchThatIsOpenedAgainWatches) {
+    verifies("SWR-PRT-031", Technique::kStateTransition, Polarity::kViolation);
+    ASSERT_EQ(sut_.open(), Status::kOk);
+    sut_.close();
+    ASSERT_EQ(sut_.open(), Status::kOk);
+    wait_for_looks(2U);
+    run_for_ever();
+    while (beats_[0].get_due() == GridBeat::kNever) {
+        std::this_thread::yield();
+    }
+    source_.is_stuck = true;
+
+    wait_until_latched();
+    EXPECT_EQ(sut_.get_finding().fault, GridFault::kOverdue);
 }
 
 TEST_F(GridWatchTest, AGuardThatHangsWithItsComponentIsFoundAtTheEndOfTheWindow) {

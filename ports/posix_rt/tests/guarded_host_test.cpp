@@ -196,7 +196,7 @@ TEST(CoreRunnerMarginTest, ATableOfTwoCoresNeedsAPublicationMargin) {
     Reader reader;
     Crossing<std::int64_t> crossing;
     const FrameClock clock = FrameClock::starting_in(0_ms);
-    const auto run_once = [&](Duration margin, std::size_t reader_core) {
+    const auto run_once = [&](Duration margin, std::size_t reader_core, std::uint64_t frame_count = 1U) {
         const auto table = system(frame(1_ms), publication_margin(margin),
                                   window("w", 0_ms, Duration{400'000}, budget(Duration{1000}), run(writer)),
                                   window("r", Duration{500'000}, Duration{400'000}, core(reader_core),
@@ -207,11 +207,12 @@ TEST(CoreRunnerMarginTest, ATableOfTwoCoresNeedsAPublicationMargin) {
         GuardedHost host{threads, clock, {}};
         CoreRunner sut{executive, host, clock};
         sut.request_stop();
-        sut.run(1U);
+        sut.run(frame_count);
         return sut.get_counts().opened;
     };
 
     EXPECT_CHECK_FAILS(run_once(0_ms, 1U), "core_runner.cpp", 2);
+    EXPECT_CHECK_FAILS(run_once(Duration{1}, 1U, 0U), "core_runner.cpp", 1);
     EXPECT_EQ(run_once(Duration{1}, 1U), 0U) << "stopped, not rejected";
     EXPECT_EQ(run_once(0_ms, 0U), 0U);
 }

@@ -4,14 +4,18 @@
 #include "mamori/ports/posix_rt/machine_options.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <array>
 #include <atomic>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "mamori/kernel/system/system.hpp"
+#include "mamori/ports/posix_rt/crash_handlers.hpp"
 #include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "support/patient_options.hpp"
@@ -80,6 +84,74 @@ TEST(MachineOptionsTest, OptionOutsideItsRangeIsRefused) {
     options.recorder = "unused.rec";
     options.recorder_capacity = 0U;
     EXPECT_EQ(run(options), Status::kBadParameter);
+}
+
+TEST(MachineOptionsTest, OptionAtTheEndOfItsRangeIsNotRefused) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kNominal);
+    CrashHandlers taken;  // ends each run after the check of its options
+    ASSERT_EQ(taken.install({[](void*) noexcept {}, nullptr, {}, 0U, FrameClock::at_epoch(0)}), Status::kOk);
+    const std::string path = ::testing::TempDir() + "mamori_options_" + std::to_string(::getpid());
+    const auto run = [](const MachineOptions& options) {
+        const auto sut = std::make_unique<Machine<kRefused>>(options);
+        EXPECT_EQ(sut->run(1U), Status::kPreconditionNotMet);
+        return sut->get_report().failed_step;
+    };
+
+    MachineOptions options = make_options();
+    options.priority = MachineOptions::kPriorityMin;
+    EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
+    options.priority = MachineOptions::kPriorityMax;
+    EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
+    options = make_options();
+    options.window_stack = kThreadStackMin;
+    options.runner_stack = kThreadStackMin;
+    options.watch.lateness = Duration{0};
+    options.recorder = path.c_str();
+    options.recorder_capacity = 1U;
+    EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
+    static_cast<void>(std::remove(path.c_str()));
+}
+
+Idle g_stopped;
+constexpr auto kStopped = system(frame(10_ms), window("idle", 2_ms, 4_ms, budget(4_ms), run(g_stopped)));
+Idle g_first;
+Idle g_second;
+constexpr auto kTwoCores = system(frame(10_ms), window("first", 2_ms, 4_ms, budget(4_ms), run(g_first)),
+                                  window("second", 2_ms, 4_ms, core(1U), budget(4_ms), run(g_second)));
+
+TEST(MachineOptionsTest, EachCoreOrNoneHasAProcessor) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kViolation);
+    CrashHandlers taken;  // ends each run after the check of its options
+    ASSERT_EQ(taken.install({[](void*) noexcept {}, nullptr, {}, 0U, FrameClock::at_epoch(0)}), Status::kOk);
+    static constexpr std::array<int, 2U> kProcessors{0, 0};
+    const auto run = [](std::size_t count) {
+        MachineOptions options = make_options();
+        options.processors = {kProcessors.data(), count};
+        const auto sut = std::make_unique<Machine<kTwoCores>>(options);
+        EXPECT_NE(sut->run(1U), Status::kOk);
+        return sut->get_report().failed_step;
+    };
+
+    EXPECT_EQ(run(0U), MachineStep::kCrashHandlers);
+    EXPECT_EQ(run(1U), MachineStep::kOptions);
+    EXPECT_EQ(run(2U), MachineStep::kCrashHandlers);
+}
+
+TEST(MachineOptionsTest, PrioritiesLeaveRoomForTheDistancesOfTheManual) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kNominal);
+    EXPECT_EQ(MachineOptions::kPriorityMin, 1 + 5) << "windows are 5 below";
+    EXPECT_EQ(MachineOptions::kPriorityMax, 99 - 10) << "the watchdog is 10 above";
+}
+
+TEST(MachineOptionsTest, RunThatIsStoppedBeforeItsFirstFrameMeasuresNothing) {
+    verifies("SWR-PRT-070", Technique::kStateTransition, Polarity::kNominal);
+    static Machine<kStopped> sut{make_options()};
+    sut.request_stop();
+
+    ASSERT_EQ(sut.run(5U), Status::kOk);
+    EXPECT_EQ(sut.get_report().openings.opened, 0U);
+    EXPECT_EQ(sut.get_report().longest_sample, Duration{0});
+    EXPECT_EQ(sut.get_report().longest_apply, Duration{0});
 }
 
 TEST(MachineOptionsTest, RecorderFileThatCannotBeOpenedEndsTheRunBeforeItsStart) {

@@ -51,6 +51,18 @@ TEST(RealTimeRightsTest, APriorityIsGrantedAndReleased) {
     EXPECT_EQ(get_own_priority(), 0);
 }
 
+TEST(RealTimeRightsTest, TheFirstRefusalOfTwoRightsCounts) {
+    verifies("SWR-PRT-002", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const Right granted{true, 0};
+    const Right no_permission{false, EPERM};
+    const Right no_memory{false, ENOMEM};
+
+    EXPECT_TRUE(combine(granted, granted).is_granted);
+    EXPECT_EQ(combine(granted, no_memory).system_error, ENOMEM);
+    EXPECT_EQ(combine(no_permission, granted).system_error, EPERM);
+    EXPECT_EQ(combine(no_permission, no_memory).system_error, EPERM);
+}
+
 /// Drops all privileges of this process.
 bool drop_privileges() {
     const rlimit none{0U, 0U};

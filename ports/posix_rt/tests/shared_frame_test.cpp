@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -141,6 +142,22 @@ TEST_F(SharedFrameTest, AMemoryOfWrongSizeIsRejectedByBothSides) {
     EXPECT_EQ(writer.get_capacity() + reader.get_capacity(), 0U);
     FrameFacts facts;
     EXPECT_EQ(reader.take({}, facts), FrameOutcome::kNothingNew);
+}
+
+TEST_F(SharedFrameTest, ABufferWithoutRoomForALongestFrameIsRejected) {
+    verifies("SWR-PRT-010", Technique::kBoundaryValues, Polarity::kViolation);
+    FrameReader reader;
+    Bytes content(kCapacity);
+    FrameFacts facts;
+    const auto take = [&](std::size_t size) {
+        static_cast<void>(reader.take({content.data(), size}, facts));
+    };
+
+    take(0U);  // without a memory there is nothing to take
+    const Span<std::byte> memory = view(region_);
+    ASSERT_EQ(reader.open({memory.data(), kSize}, kCapacity), Status::kOk);
+    take(kCapacity);
+    EXPECT_CHECK_FAILS(take(kCapacity - 1U), "shared_frame.cpp", 1);
 }
 
 TEST_F(SharedFrameTest, NumbersWrapAroundAndSkipZero) {

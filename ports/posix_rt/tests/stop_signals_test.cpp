@@ -98,6 +98,21 @@ TEST_F(StopSignalsTest, DefaultActionIsNotForwardedAndAnIgnoredSignalStaysIgnore
     EXPECT_EQ(now.sa_handler, SIG_DFL);
 }
 
+TEST_F(StopSignalsTest, ASecondRemovalChangesNoSignal) {
+    verifies("SWR-PRT-072", Technique::kStateTransition, Polarity::kViolation);
+    set(SIGTERM, SIG_DFL);
+    StopSignals sut;
+    ASSERT_EQ(sut.install(ear_), Status::kOk);
+    sut.remove();
+    set(SIGTERM, SIG_IGN);
+
+    sut.remove();
+    struct sigaction now{};
+    ASSERT_EQ(sigaction(SIGTERM, nullptr, &now), 0);
+    EXPECT_EQ(now.sa_handler, SIG_IGN);
+    EXPECT_EQ(sut.install(ear_), Status::kOk);
+}
+
 TEST_F(StopSignalsTest, OneObjectOfAProcessIsInstalled) {
     verifies("SWR-PRT-072", Technique::kErrorGuessing, Polarity::kViolation);
     Ear other;

@@ -137,6 +137,74 @@ TEST(FrameRunnerTest, OverrunsAreCountedOnlyBeyondTheBudget) {
     EXPECT_EQ(plant.runner.get_overrun_count(), 5U);
 }
 
+/// Reads the clock of a core before the first window of each frame.
+class ClockReader final : public Devices {
+  public:
+    explicit ClockReader(const VirtualHost& host) : host_(host) {}
+    std::vector<std::int64_t> seen;
+
+    void sample(std::uint64_t /*frame*/, Instant /*start*/) noexcept override {
+        seen.push_back(host_.get_now().ns);
+    }
+    void apply(std::uint64_t /*frame*/, Instant /*start*/, Duration /*length*/) noexcept override {}
+
+  private:
+    const VirtualHost& host_;
+};
+
+TEST(FrameRunnerTest, ClockIsAtTheBeginOfTheFrameWhenDevicesAreSampledAlsoInALaterFirstFrame) {
+    verifies("SWR-VTM-003", Technique::kBoundaryValues);
+    Plant plant;
+    ClockReader devices{plant.host};
+    plant.host.advance_to(Instant{2500});
+    SimulatedCore core{plant.executive, plant.host};
+    FrameRunner runner{{&core, 1U}, devices, 3U};
+
+    runner.run_frame();
+    runner.run_frame();
+    EXPECT_EQ(devices.seen, (std::vector<std::int64_t>{3000, 4000}));
+}
+
+/// Notes its name when it runs.
+class Noter final : public Component {
+  public:
+    Noter(const char* name, std::vector<std::string>& heard) noexcept : Component(name), heard_(heard) {}
+    using Ports = mamori::Ports<>;
+
+    Status on_execute(ContextHandle) noexcept override {
+        heard_.emplace_back(get_name());
+        return Status::kOk;
+    }
+
+  private:
+    std::vector<std::string>& heard_;
+};
+
+TEST(FrameRunnerTest, WindowsOfTheSameInstantRunInTheOrderOfTheirCores) {
+    verifies("SWR-VTM-003", Technique::kBoundaryValues);
+    std::vector<std::string> heard;
+    Noter first{"first", heard};
+    Noter second{"second", heard};
+    const auto table = system(frame(1000_ns), window("a", 0_ns, 300_ns, budget(200_ns), run(first)),
+                              window("b", 0_ns, 300_ns, core(1U), budget(200_ns), run(second)));
+    ExecutiveFor core_0{table, 0U};
+    ExecutiveFor core_1{table, 1U};
+    std::array<Duration, 2U> durations{};
+    IndexedVirtualHost host_0{durations};
+    IndexedVirtualHost host_1{durations};
+    ASSERT_EQ(core_0.initialize(), Status::kOk);
+    ASSERT_EQ(core_1.initialize(), Status::kOk);
+    ASSERT_EQ(core_0.start(), Status::kOk);
+    ASSERT_EQ(core_1.start(), Status::kOk);
+    std::array<SimulatedCore, 2U> cores{SimulatedCore{core_0, host_0}, SimulatedCore{core_1, host_1}};
+    NoDevices devices;
+    FrameRunner runner{cores, devices};
+
+    runner.run_frame();
+    runner.run_frame();
+    EXPECT_EQ(heard, (std::vector<std::string>{"first", "second", "first", "second"}));
+}
+
 TEST(FrameRunnerTest, AStoppedSystemLetsTimePass) {
     verifies("SWR-VTM-003", Technique::kStateTransition);
     Plant plant;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 #include "mamori/kernel/base/constant_init.hpp"
@@ -62,6 +63,12 @@ MAMORI_TEST_SYSTEM(kStops);
 MAMORI_TEST_SYSTEM(kFailsAtStart);
 MAMORI_TEST_SYSTEM(kFailsAtStop);
 MAMORI_TEST_SYSTEM(kSlow);
+MAMORI_TEST_SYSTEM(kRunsAlready);
+
+/// One core, whose frame has room five times in the time line.
+Counter g_counter_kLong;
+constexpr auto kLong = system(frame(Duration{std::numeric_limits<std::int64_t>::max() / 5}),
+                              window("count", 0_ns, 300_ns, budget(200_ns), run(g_counter_kLong)));
 
 /// Gives itself a modelled time in one of its actions, so that the next action has it.
 class Hanger final : public Component {
@@ -180,6 +187,31 @@ TEST(VirtualMachineTest, FailureOfTheStartRunsNoFrame) {
     EXPECT_EQ(sut.run(3U, devices), Status::kUnsupported);
     EXPECT_EQ(sut.get_executives().get_failed_core(), 0U);
     EXPECT_TRUE(devices.sampled.empty());
+}
+
+TEST(VirtualMachineTest, StopRequestedBeforeARunThatFailsToStartDoesNotStopTheNextOne) {
+    verifies("SWR-VTM-006", Technique::kStateTransition, Polarity::kViolation);
+    static Machine<kRunsAlready> sut;
+    ASSERT_EQ(sut.get_executives().start(), Status::kOk);
+    sut.request_stop();
+    ASSERT_EQ(sut.run(3U), Status::kPreconditionNotMet);
+
+    ASSERT_EQ(sut.get_executives().stop(), Status::kOk);
+    ASSERT_EQ(sut.run(3U), Status::kOk);
+    EXPECT_EQ(sut.get_frame_count(), 3U);
+}
+
+TEST(VirtualMachineTest, RunsEndOneFrameBeforeTheEndOfTheTimeLine) {
+    verifies("SWR-VTM-006", Technique::kBoundaryValues, Polarity::kViolation);
+    static Machine<kLong> sut;
+
+    ASSERT_EQ(sut.run(2U), Status::kOk);
+    EXPECT_EQ(sut.get_frame_count(), 2U);
+    ASSERT_EQ(sut.run(3U), Status::kOk);
+    EXPECT_EQ(sut.get_frame_count(), 4U);
+    ASSERT_EQ(sut.run(), Status::kOk);
+    EXPECT_EQ(sut.get_frame_count(), 4U);
+    EXPECT_EQ(sut.get_overrun_count(), 0U);
 }
 
 TEST(VirtualMachineTest, FailureOfTheStopIsReturned) {

@@ -4,6 +4,7 @@
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
 
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 
 namespace mamori::ports::virtual_time {
 namespace {
@@ -34,6 +35,17 @@ TEST(VirtualWatchdogTest, RelayOpensForGoodAfterTheTimeout) {
     EXPECT_FALSE(sut.is_watching());
     EXPECT_EQ(sut.service(Instant{} + 6_ms), Status::kError);
     EXPECT_TRUE(sut.has_expired());
+}
+
+TEST(VirtualWatchdogTest, TimeoutThatIsNoTimeIsRejected) {
+    verifies("SWR-VTM-005", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto make = [](Duration timeout) {
+        const VirtualWatchdog watchdog{timeout};
+        return watchdog.is_watching();
+    };
+
+    EXPECT_FALSE(make(1_ns));
+    EXPECT_CHECK_FAILS(static_cast<void>(make(0_ns)), "virtual_watchdog.hpp", 1);
 }
 
 TEST(VirtualWatchdogTest, LateServiceDoesNotHideTheTimeout) {

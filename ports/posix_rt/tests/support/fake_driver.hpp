@@ -124,7 +124,8 @@ inline int close(int) {
     FakeDriver& driver = FakeDriver::get();
     driver.is_open = false;
     const bool stops = driver.is_stop_allowed || (driver.options & WDIOF_MAGICCLOSE) == 0U;
-    driver.is_running = driver.is_running && !(stops && driver.can_stop);
+    const bool is_stopped = stops && driver.can_stop;
+    driver.is_running = driver.is_running && !is_stopped;
     return 0;
 }
 

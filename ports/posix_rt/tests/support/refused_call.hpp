@@ -38,6 +38,25 @@ inline bool refuse_call(std::uint32_t call, std::uint32_t error, bool with_flags
            ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
+/// The same where the lower half of argument `index` is `value`.
+inline bool refuse_call_with(std::uint32_t call, std::uint32_t error, std::size_t index,
+                             std::uint32_t value) {
+    constexpr auto kNumber = static_cast<std::uint32_t>(offsetof(seccomp_data, nr));
+    const auto argument =
+        static_cast<std::uint32_t>(offsetof(seccomp_data, args) + index * sizeof(std::uint64_t));
+    std::array<sock_filter, 6U> steps{{
+        {BPF_LD | BPF_W | BPF_ABS, 0U, 0U, kNumber},
+        {BPF_JMP | BPF_JEQ | BPF_K, 0U, 3U, call},
+        {BPF_LD | BPF_W | BPF_ABS, 0U, 0U, argument},
+        {BPF_JMP | BPF_JEQ | BPF_K, 0U, 1U, value},
+        {BPF_RET | BPF_K, 0U, 0U, SECCOMP_RET_ERRNO | error},
+        {BPF_RET | BPF_K, 0U, 0U, SECCOMP_RET_ALLOW},
+    }};
+    const sock_fprog program{static_cast<unsigned short>(steps.size()), steps.data()};
+    return ::prctl(PR_SET_NO_NEW_PRIVS, 1UL, 0UL, 0UL, 0UL) == 0 &&
+           ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+}
+
 /// @return exit status of a process that runs `act`: 0 without a failed expectation; -1 if a signal ended it.
 inline int run_in_process(const std::function<void()>& act) {
     const pid_t child = ::fork();
