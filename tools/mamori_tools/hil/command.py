@@ -51,9 +51,9 @@ def run(arguments: argparse.Namespace) -> int:
     own = {name: getattr(arguments, name) for name in OWN if getattr(arguments, name) is not None}
     programs = Programs(project.safe_arm.parent, project.model, out / "motion.txt", own)
     programs.check()
-    network.check_tools()
     if out.exists() and not (out.is_dir() and (programs.motion.exists() or not any(out.iterdir()))):
         raise InputError("hil: is not a folder of an earlier run; specify a new one with --out", out)
+    network.check_tools()
     _make_empty(out)
     write_text(programs.motion, canonical_text(motion))
     network.enter_own_network()

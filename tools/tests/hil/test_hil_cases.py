@@ -34,6 +34,7 @@ def _no_namespace(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(network, "enter_own_network", refuse)
     monkeypatch.setattr("mamori_tools.command.main.raise_on_signals", lambda: None)
+    monkeypatch.setattr("mamori_tools.command.locks.list_written", lambda _: [])
 
 
 def run(*words: str) -> int:
