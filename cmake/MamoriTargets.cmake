@@ -117,6 +117,8 @@ function(mamori_measure_coverage)
     if(NOT TARGET mamori_flush_on_death)
         add_library(mamori_flush_on_death OBJECT "${tools}/flush_on_death.cpp")
         mamori_common_flags(mamori_flush_on_death)
+        # A test executes a child instruction by instruction.
+        target_compile_options(mamori_flush_on_death PRIVATE -O2 -fno-sanitize=all)
     endif()
     get_property(targets DIRECTORY PROPERTY BUILDSYSTEM_TARGETS)
     foreach(target IN LISTS targets)

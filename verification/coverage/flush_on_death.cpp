@@ -38,7 +38,9 @@ char* g_shared = nullptr;  ///< sum of the counters of its children, then of the
 void add(char* target, const char* source, std::size_t size) {
     for (std::size_t i = 0U; i < size; i += sizeof(std::uint64_t)) {
         const auto* value = reinterpret_cast<const std::uint64_t*>(source + i);
-        __atomic_fetch_add(reinterpret_cast<std::uint64_t*>(target + i), *value, __ATOMIC_RELAXED);
+        if (*value != 0U) {
+            __atomic_fetch_add(reinterpret_cast<std::uint64_t*>(target + i), *value, __ATOMIC_RELAXED);
+        }
     }
 }
 
