@@ -63,7 +63,8 @@ PACKAGE_LEVELS = {
     "mamori_trace.base": 0, "mamori_trace.cache": 1, "mamori_trace.model": 1, "mamori_trace.readers": 2, "mamori_trace.checks": 3,
     "mamori_trace.formats": 3, "mamori_trace.reports": 4, "mamori_trace.actions": 5, "mamori_trace": 6,
     "mamori_tools.host": 7, "mamori_tools.motion": 7, "mamori_tools.profiles": 7, "mamori_tools.table": 8, "mamori_tools.e2e": 8,
-    "mamori_tools.lcm": 8, "mamori_tools.campaign": 8, "mamori_tools.log": 9, "mamori_tools.timing": 9, "mamori_tools.hil": 9, "mamori_tools.cost": 10, "mamori_tools.command": 11,
+    "mamori_tools.lcm": 8, "mamori_tools.campaign": 8, "mamori_tools.log": 9, "mamori_tools.timing": 9, "mamori_tools.hil": 9,
+    "mamori_tools.cost": 10, "mamori_tools.command": 11,
     "verification.checks": 12, "verification.faults": 12,
 }  # fmt: skip
 PACKAGE_FOLDERS = {"trace/mamori_trace": "mamori_trace", "tools/mamori_tools": "mamori_tools", "verification": "verification"}
