@@ -78,6 +78,7 @@ int run_scenario(const safe_arm::RunOptions& options) {
     if (!machine.is_plant_sound()) {
         return fail(kExitFailed, "the simulated plant diverged in frame " + std::to_string(frames));
     }
+    // A component that hangs by the fault plan also hangs at the stop.
     if (status != mamori::Status::kOk && frames == 0U) {
         return fail(kExitFailed, safe_arm::describe_failed_start());
     }

@@ -8,8 +8,7 @@
 
 namespace mamori::ports::virtual_time {
 
-FrameRunner::FrameRunner(Span<SimulatedCore> cores, Devices& devices, std::uint64_t first_frame) noexcept
-    : cores_(cores), devices_(devices), frame_count_(first_frame) {
+void FrameRunner::pair_cores() noexcept {
     for (SimulatedCore& core : cores_) {
         const Executive& executive = core.executive_;
         const std::size_t ordinary =

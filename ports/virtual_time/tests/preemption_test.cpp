@@ -116,8 +116,16 @@ class PreemptionTest : public ::testing::Test {
     /// Runs one frame. @return what the observer of the background windows heard.
     std::vector<std::string> run_frame() {
         machine_.get_executives().get(1U).set_observer(&observer_);
-        EXPECT_EQ(machine_.run(1U), Status::kOk);
+        EXPECT_EQ(machine_.run(1U, [this](std::uint64_t) { end_hangs(); }), Status::kOk);
         return observer_.heard;
+    }
+    /// Work that still hangs would also hang at the stop.
+    void end_hangs() {
+        for (const Stage* stage : {&g_first, &g_second, &g_planner, &g_mapper}) {
+            if (machine_.get_host_of<0U>().get_duration(index_of(kSystem, *stage)) == kNever) {
+                set(*stage, 0_ns);
+            }
+        }
     }
     Subject machine_;
     SpyObserver observer_;

@@ -39,17 +39,20 @@ class SimulatedCore final {
     const SimulatedCore* ordinary_{nullptr};  ///< whose windows preempt its windows; nullptr: none
 };
 
-/// Drives the executives of one system; frame n begins at n times the frame length. Openings of all cores are
-/// run in the order of their planned instants, which is all that the data flow depends on. Ordinary windows
-/// preempt the background windows of their core. All references
-/// must outlive it, and no core's clock may be past the frame that is run next (own bug).
+/// Drives the executives of one system; frame n begins at n times the frame length. The windows of all cores
+/// run in the order of their planned instants, on which alone the data flow depends. Ordinary windows preempt
+/// the background windows of their core. All references must outlive it. A clock of a core that is past the
+/// next frame is a contract violation.
 ///
 /// Thread safety: none. Time: one frame per call, as fast as the host computes it.
 class FrameRunner final {
   public:
     /// @param[in] cores at least one, all of the same system table.
     /// @param[in] first_frame number of the frame that is run first.
-    FrameRunner(Span<SimulatedCore> cores, Devices& devices, std::uint64_t first_frame = 0U) noexcept;
+    FrameRunner(Span<SimulatedCore> cores, Devices& devices, std::uint64_t first_frame = 0U) noexcept
+        : cores_(cores), devices_(devices), frame_count_(first_frame) {
+        pair_cores();
+    }
 
     /// Runs the next frame: each window opens at its instants, whatever happened in the one before.
     void run_frame() noexcept;
@@ -60,6 +63,8 @@ class FrameRunner final {
     std::uint64_t get_overrun_count() const noexcept { return overrun_count_; }
 
   private:
+    /// Shows each core of background windows the core whose windows preempt it.
+    void pair_cores() noexcept;
     /// Core whose next opening is the earliest.
     SimulatedCore& find_next() noexcept;
     static WindowOutcome open(SimulatedCore& core, const FrameSchedule::Opening& opening) noexcept;
