@@ -115,18 +115,27 @@ class PreemptionTest : public ::testing::Test {
     }
     /// Runs one frame. @return what the observer of the background windows heard.
     std::vector<std::string> run_frame() {
+        Hang hang{*this};
         machine_.get_executives().get(1U).set_observer(&observer_);
-        EXPECT_EQ(machine_.run(1U, [this](std::uint64_t) { end_hangs(); }), Status::kOk);
+        EXPECT_EQ(machine_.run(1U, hang), Status::kOk);
         return observer_.heard;
     }
-    /// Work that still hangs would also hang at the stop.
-    void end_hangs() {
-        for (const Stage* stage : {&g_first, &g_second, &g_planner, &g_mapper}) {
-            if (machine_.get_host_of<0U>().get_duration(index_of(kSystem, *stage)) == kNever) {
-                set(*stage, 0_ns);
+    /// Lets components hang in the windows only, not at the start and the stop of the system.
+    class Hang final : public Devices {
+      public:
+        explicit Hang(PreemptionTest& test) noexcept : test_(test) {}
+        void sample(std::uint64_t, Instant) noexcept override { set_all(kNever); }
+        void apply(std::uint64_t, Instant, Duration) noexcept override { set_all(0_ns); }
+
+      private:
+        void set_all(Duration duration) noexcept {
+            for (const Stage* stage : test_.hanging_) {
+                test_.set(*stage, duration);
             }
         }
-    }
+        PreemptionTest& test_;
+    };
+    std::vector<const Stage*> hanging_;
     Subject machine_;
     SpyObserver observer_;
 };
@@ -182,7 +191,7 @@ TEST_F(PreemptionTest, WorkBeyondTheBudgetIsAbortedWhenItIsExhausted) {
 TEST_F(PreemptionTest, HangingWorkIsAbortedWhenItsBudgetIsExhausted) {
     verifies("SWR-VTM-011", Technique::kFaultInjection, Polarity::kViolation);
     set(g_first, 20_ns);
-    set(g_planner, kNever);
+    hanging_ = {&g_planner};
 
     // 50 ns until 100, then 80 ns in each 100 ns.
     EXPECT_EQ(run_frame(), Heard{"overrun 2/2 @550"});
@@ -190,8 +199,7 @@ TEST_F(PreemptionTest, HangingWorkIsAbortedWhenItsBudgetIsExhausted) {
 
 TEST_F(PreemptionTest, AHangingOrdinaryWindowCountsWithItsBudget) {
     verifies("SWR-VTM-010", Technique::kFaultInjection);
-    set(g_first, kNever);
-    set(g_second, kNever);
+    hanging_ = {&g_first, &g_second};
     set(g_planner, 400_ns);
 
     // 50 ns until 100, 80 ns in the next 100 ns, 60 ns in each 100 ns with both windows: all within 850.
