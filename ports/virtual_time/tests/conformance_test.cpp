@@ -152,9 +152,10 @@ TEST(VirtualTimeConformanceTest, HostKeepsItsContractInEveryOrder) {
 TEST(VirtualTimeConformanceTest, WindowsThatHangKeepTheContractInEveryLongOrder) {
     verifies("SWR-CNF-010", Technique::kStateTransition);
     const TrialFactory hangs = conformance::select_rules(
-        make_host(), {"work that fits, window 0", "work that fits, window 1", "a late step, window 1",
-                      "a hang in the middle, window 1", "ask while it hangs, window 1", "release, window 1",
-                      "a hang at once, window 2", "release, window 2", "time passes"});
+        make_host(),
+        {"work that fits, window 0", "work that fits, window 1", "a late step, window 1",
+         "a hang of the second step, window 1", "query during the hang, window 1", "release, window 1",
+         "a hang of the first step, window 2", "release, window 2", "time passes"});
     expect_all_tried(explore(hangs, 7U), "9 rules, 219018 sequences, 1533126 steps, 24 states\n");
 }
 

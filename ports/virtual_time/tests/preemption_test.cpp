@@ -39,17 +39,20 @@ class Stage final : public Component {
     using Ports = mamori::Ports<&Stage::in, &Stage::each, &Stage::out>;
     std::int64_t sum{0};
 
+    /// Depends on the order of the values; never overflows.
+    static std::int64_t mix(std::int64_t sum, std::int64_t value) noexcept {
+        return (31 * sum + value) & 0xFFFFFFF;
+    }
     Status on_activated(ContextHandle) noexcept override {
         sum = 0;
         return Status::kOk;
     }
     Status on_execute(ContextHandle) noexcept override {
         std::int64_t value = in.read() + 1;
-        sum = 31 * sum + value;
+        sum = mix(sum, value);
         while (each.read(value) == Status::kOk) {
-            sum = 31 * sum + value;
+            sum = mix(sum, value);
         }
-        sum &= 0xFFFFFFF;
         out.write(sum);
         return Status::kOk;
     }
