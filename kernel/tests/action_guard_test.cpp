@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,14 +30,20 @@ Log g_log;
 /// Writes down its actions as "name.action". Initialised statically, so the log is a global.
 class Noter final : public Component {
   public:
-    constexpr explicit Noter(const char* name) noexcept : Component(name) {}
+    explicit Noter(const char* name) noexcept : Component(name) {}
     Status initializes{Status::kOk};
     Status starts{Status::kOk};
     Status activates{Status::kOk};
+    std::function<void()> during_startup;
 
     Status on_initialize() noexcept override { return note("initialize", initializes); }
     Status on_finalize() noexcept override { return note("finalize", Status::kOk); }
-    Status on_startup(ContextHandle) noexcept override { return note("startup", starts); }
+    Status on_startup(ContextHandle) noexcept override {
+        if (during_startup) {
+            during_startup();
+        }
+        return note("startup", starts);
+    }
     Status on_shutdown(ContextHandle) noexcept override { return note("shutdown", Status::kOk); }
     Status on_activated(ContextHandle) noexcept override { return note("activated", activates); }
     Status on_deactivated(ContextHandle) noexcept override { return note("deactivated", Status::kOk); }
@@ -163,6 +170,19 @@ TEST_F(ActionGuardTest, EachActionIsWorkOfItsWindowWithABudgetOfItsOwn) {
         EXPECT_EQ(host_.deadlines[i], start + kBudget);
         start = start + host_.duration;
     }
+}
+
+TEST_F(ActionGuardTest, OperationsFromWithinAnActionAreRejected) {
+    verifies("SWR-KRN-090", Technique::kErrorGuessing, Polarity::kViolation);
+    std::vector<Status> results;
+    a_.during_startup = [&] {
+        results = {sut_.initialize(guard_), sut_.start(guard_), sut_.stop(guard_), sut_.finalize(guard_)};
+    };
+    ASSERT_EQ(sut_.initialize(guard_), Status::kOk);
+    ASSERT_EQ(sut_.start(guard_), Status::kOk);
+
+    EXPECT_EQ(results, std::vector<Status>(4U, Status::kPreconditionNotMet));
+    EXPECT_EQ(sut_.stop(guard_), Status::kOk);
 }
 
 TEST_F(ActionGuardTest, BudgetIsExceededByTheFirstNanosecondAfterIt) {

@@ -5,8 +5,8 @@
 
 namespace mamori::ports::virtual_time {
 
-StepEnd VirtualHost::run_step(Pass pass, Duration duration, Instant deadline) const noexcept {
-    if (processor_ != nullptr && pass != Pass::kAction) {
+StepEnd VirtualHost::run_step(Duration duration, Instant deadline) const noexcept {
+    if (processor_ != nullptr) {
         return processor_->run_step(now_, duration, deadline);
     }
     // Written without the sum, which could overflow.
@@ -20,7 +20,7 @@ std::size_t VirtualHost::run_within(const Work& work, Instant deadline) noexcept
         const std::size_t component = work.component + i;
         const Duration duration = work.pass != Pass::kStateUpdate ? get_duration(component) : Duration{0};
         MAMORI_REQUIRE(2, duration >= Duration{0});
-        const StepEnd end = run_step(work.pass, duration, deadline);
+        const StepEnd end = run_step(duration, deadline);
         step_end_ = end.is_in_time ? end.at : end.at + Duration{1};
         if (duration != kNever) {
             work.run(work.argument, work.first + i, work.first + i + 1U);

@@ -66,8 +66,8 @@ class VirtualHost : public WindowHost {
     /// Always: work that is cut off has returned, or never began.
     bool has_returned(std::size_t) const noexcept final { return true; }
 
-    /// @param[in] processor executes the work from now on, except actions outside windows; nullptr: one that
-    ///            executes nothing else. Must outlive its use.
+    /// @param[in] processor executes the work of windows from now on; nullptr: one that executes nothing else.
+    ///            Must outlive its use, and must not be set while actions outside windows run.
     void set_processor(ModelledProcessor* processor) noexcept { processor_ = processor; }
 
     /// Lets time pass without work. @param[in] instant not before get_now(); an earlier one is an own bug.
@@ -90,7 +90,7 @@ class VirtualHost : public WindowHost {
     ~VirtualHost() = default;
 
   private:
-    StepEnd run_step(Pass pass, Duration duration, Instant deadline) const noexcept;
+    StepEnd run_step(Duration duration, Instant deadline) const noexcept;
 
     Span<Duration> durations_;
     Span<Component* const> components_;
