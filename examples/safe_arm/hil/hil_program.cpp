@@ -66,7 +66,7 @@ LinkErrorPlan make_link_error(const FaultPlan& fault, std::uint64_t seed) noexce
     return plan;
 }
 
-/// Gives each thread of this process, those of LCM as well, a fixed priority below that of the windows.
+/// Gives each thread of this process, also threads of LCM, a fixed priority below that of the windows.
 /// Without the right for it, the process continues and is late more often.
 void raise_threads() {
     const sched_param priority{kLinkPriority};
