@@ -98,7 +98,7 @@ def test_two_replays_of_a_log_send_the_same_messages(short_run: list[dict[str, A
     assert results[0]["equal"] > 0, results[0]
 
 
+# No `verifies`: the CI gate does not run this test, so its result would be missing.
 @pytest.mark.long
-@pytest.mark.verifies("SWR-HIL-008", technique="fault_injection", polarity="violation")
 def test_all_cases_have_the_verdict_of_virtual_time(tmp_path: Path, record_property: Record) -> None:
     check(run_hil(LONG, tmp_path / "run"), record_property)

@@ -17,7 +17,7 @@ TEST(BackgroundTest, DataInRealTimeAreThoseOfVirtualTime) {
 
     ASSERT_TRUE(result.has_run);
     if (!result.is_realtime || result.other != 0U) {
-        GTEST_SKIP() << "inconclusive: priorities " << result.is_realtime
+        GTEST_SKIP() << "verdict=inconclusive: priorities " << result.is_realtime
                      << ", other overruns or skipped windows " << result.other;
     }
     EXPECT_TRUE(result.are_equal);

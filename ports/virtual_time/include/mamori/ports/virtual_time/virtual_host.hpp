@@ -66,7 +66,7 @@ class VirtualHost : public WindowHost {
     /// Always: work that is cut off has returned, or never began.
     bool has_returned(std::size_t) const noexcept final { return true; }
 
-    /// @param[in] processor executes the work of windows from now on; nullptr: one that executes nothing else.
+    /// @param[in] processor executes the work of windows from now on; nullptr: one without other work.
     ///            Must outlive its use, and must not be set while actions outside windows run.
     void set_processor(ModelledProcessor* processor) noexcept { processor_ = processor; }
 
