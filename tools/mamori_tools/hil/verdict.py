@@ -36,6 +36,8 @@ CHANNELS = {"command": "ARM_COMMAND", "device": "ARM_DEVICES", "drive": "ARM_DRI
 SIGNS = {"corruption": ("damaged", "foreign"), "repetition": ("unordered",), "sequence": ("unordered",), "loss": ("lost",), "delay": (),
          "insertion": ("damaged",), "masquerade": ("damaged",), "addressing": ("damaged",)}  # fmt: skip
 """Error -> counters of the receiver of which one must rise. After a delay, all messages are valid and too old."""
+KEEPING = ("repetition", "insertion", "masquerade")
+"""Errors that add messages: each true message still arrives in time."""
 
 
 @dataclass(frozen=True)
@@ -196,9 +198,9 @@ def describe_host(reports: Mapping[str, Mapping[str, Any]], facts: RunFacts, cas
 
 
 def _list_late_links(case: HilCase, kernel: Mapping[str, Any], plant: Mapping[str, Any], controller: Mapping[str, Any]) -> list[str]:
-    """Links on which a message was late although its sender was not. A link with an injected error has gaps of its own."""
+    """Links on which a message was late although its sender was not. A link whose injected error holds back messages has gaps of its own."""
     is_of_messages = case.arm.fault is not None and case.arm.fault.kind.startswith("message_")
-    faulty = case.link or ("command" if is_of_messages else "")
+    faulty = ("" if case.error in KEEPING else case.link) or ("command" if is_of_messages and not case.link else "")
     # Link -> longest gap between two messages where they are sent and received. The kernel sends in each frame; its report shows skipped ones.
     gaps = {"drive": (0.0, plant.get("received_gap_s", 0.0)), "state": (0.0, controller.get("received_gap_s", 0.0)),
             "device": (plant.get("sent_gap_s"), kernel.get("device_gap_s", 0.0)),

@@ -129,6 +129,9 @@ def test_the_gap_of_an_injected_error_is_no_figure(tmp_path: Path) -> None:
     reports = make_reports()
     reports["plant"]["received_gap_s"] = 0.05
     assert judge(tmp_path, case, reports, add_fault(case)).verdict == "failed"
+    repeated = CASES["repetition_drive-1"]
+    reports["plant"]["drive"]["unordered"] = 1
+    assert judge(tmp_path, repeated, reports, {**add_fault(repeated), **STOPPED}).verdict == "inconclusive", "each true message arrives"
     hang = CASES["supervisor_hang-1"]
     reports = make_reports()
     reports["kernel"]["overran"] = 2000
