@@ -161,6 +161,29 @@ TEST(SystemLimitsTest, EachConditionOnThePlaceOfAWindowCountsByItself) {
     }
 }
 
+TEST(SystemLimitsTest, TheStackOfAWindowIsAMultipleOfOneKibInRange) {
+    verifies("SWR-KRN-094", Technique::kBoundaryValues, Polarity::kViolation);
+    Counter counter;
+    const auto declare = [&counter](std::size_t size) {
+        return system(frame(1_ms), window("a", 0_ms, 1_ms, budget(1_ms), stack(size), run(counter)));
+    };
+    struct Case {
+        std::size_t size;
+        std::uint16_t kib;
+    };
+    for (const Case& one : {Case{1_KiB, 1U}, Case{64_KiB, 64U}, Case{65534_KiB, 65534U}}) {
+        EXPECT_EQ(declare(one.size).windows[0U].stack_kib, one.kib);
+        EXPECT_EQ(list_rules_of(declare(one.size)), Rules{}) << one.size;
+    }
+    for (const std::size_t size :
+         {std::size_t{0U}, 1_KiB - 1U, 1_KiB + 1U, 65535_KiB, 65536_KiB, ~std::size_t{0U}}) {
+        EXPECT_EQ(list_rules_of(declare(size)), Rules{Rule::kStackOutOfRange}) << size;
+    }
+    const auto silent = system(frame(1_ms), window("a", 0_ms, 1_ms, budget(1_ms), run(counter)));
+    EXPECT_EQ(silent.windows[0U].stack_kib, 0U);
+    EXPECT_EQ(list_rules_of(silent), Rules{});
+}
+
 TEST(SystemLimitsTest, AWindowWithPortsBeyondTheTableAndAComponentWithoutARowAreInvalid) {
     verifies("SWR-KRN-025", Technique::kErrorGuessing, Polarity::kViolation);
     auto table = system(frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(g_counter)));

@@ -128,8 +128,8 @@ Status GuardedHost::start(WindowThread& thread) noexcept {
 }
 
 Status GuardedHost::start_all() noexcept {
-    for (WindowThread& thread : threads_) {
-        const Status result = start(thread);
+    for (std::size_t window = 0U; window < threads_.size(); ++window) {
+        const Status result = is_own(window) ? start(threads_[window]) : Status::kOk;
         if (result != Status::kOk) {
             return result;
         }
@@ -142,8 +142,8 @@ Status GuardedHost::open() noexcept {
 }
 
 Status GuardedHost::open(int runner_priority) noexcept {
-    for (const WindowThread& thread : threads_) {
-        if (thread.is_open_) {
+    for (std::size_t window = 0U; window < threads_.size(); ++window) {
+        if (is_own(window) && threads_[window].is_open_) {
             return Status::kPreconditionNotMet;
         }
     }
@@ -168,8 +168,9 @@ Status GuardedHost::open(int runner_priority) noexcept {
 
 Status GuardedHost::close() noexcept {
     Status result = Status::kOk;
-    for (WindowThread& thread : threads_) {
-        if (!thread.is_open_) {
+    for (std::size_t window = 0U; window < threads_.size(); ++window) {
+        WindowThread& thread = threads_[window];
+        if (!is_own(window) || !thread.is_open_) {
             continue;
         }
         if (thread.is_out()) {
@@ -233,9 +234,11 @@ void GuardedHost::stay_below(int runner_priority) noexcept {
     if (is_guarded(window_priority_, runner_priority)) {
         return;
     }
-    for (WindowThread& thread : threads_) {
-        static_cast<void>(set_priority(thread.thread_, 0));
-        thread.priority_ = 0;
+    for (std::size_t window = 0U; window < threads_.size(); ++window) {
+        if (is_own(window)) {
+            static_cast<void>(set_priority(threads_[window].thread_, 0));
+            threads_[window].priority_ = 0;
+        }
     }
     window_priority_ = 0;
     priority_right_ = {false, EPERM};

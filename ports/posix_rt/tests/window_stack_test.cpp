@@ -8,21 +8,28 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
+#include <utility>
 
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
+#include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/patient_options.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
 
 using namespace verification;
-using literals::operator""_s;
+using namespace literals;
 
 constexpr std::size_t kKib = 1024U;
 constexpr std::size_t kPage = 4096U;
@@ -175,6 +182,56 @@ TEST(LockedStackTest, FiftyWindowsLockLessThanTwentyMegabytes) {
     EXPECT_LT(growth, kMost);
     EXPECT_GT(growth, 50U * kThreadStack) << "the stacks are locked";
     RecordProperty("locked_bytes_of_50_windows", std::to_string(growth));
+}
+
+// ---- Machine ----
+
+/// Of this process.
+std::size_t count_threads() {
+    const std::filesystem::directory_iterator threads{"/proc/self/task"};
+    return static_cast<std::size_t>(std::distance(begin(threads), end(threads)));
+}
+
+/// Notes the stack of its thread and the number of threads.
+class StackReader final : public Component {
+  public:
+    explicit constexpr StackReader(const char* name) noexcept : Component(name) {}
+    using Ports = mamori::Ports<>;
+    std::size_t size{0U};
+    std::size_t thread_count{0U};  ///< the most
+
+  protected:
+    Status on_execute(ContextHandle) noexcept override {
+        size = read_stack().size;
+        // A thread that has no window left ends before those of the other core.
+        thread_count = std::max(thread_count, count_threads());
+        return Status::kOk;
+    }
+};
+
+StackReader g_small{"small"};
+StackReader g_large{"large"};
+StackReader g_silent{"silent"};
+constexpr auto kSystem =
+    system(frame(10_ms), window("small", 0_ms, 5_ms, budget(5_ms), stack(64_KiB), run(g_small)),
+           window("large", 0_ms, 5_ms, core(1), budget(5_ms), stack(8192_KiB), run(g_large)),
+           window("silent", 5_ms, 5_ms, core(1), budget(5_ms), run(g_silent)));
+
+TEST(MachineStackTest, EachWindowHasOneThreadWithItsDeclaredStack) {
+    verifies("SWR-PRT-060");
+    static Machine<kSystem> machine{make_options()};
+    const std::size_t threads_before = count_threads();
+
+    ASSERT_EQ(machine.run(20U), Status::kOk) << describe(machine.get_report()).c_str();
+
+    for (const auto& [component, declared] :
+         {std::pair{&g_small, 64U * kKib + kThreadStackMin},
+          std::pair{&g_large, 8192U * kKib + kThreadStackMin}, std::pair{&g_silent, kThreadStack}}) {
+        EXPECT_GE(component->size, declared) << component->get_name();
+        EXPECT_LE(component->size, 4U * declared + 1024U * kKib) << component->get_name();
+        // Three windows, two cores, schedule watch and watchdog.
+        EXPECT_EQ(component->thread_count, threads_before + 7U);
+    }
 }
 
 // ---- Overflow ----

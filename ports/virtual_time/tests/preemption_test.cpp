@@ -275,5 +275,44 @@ TEST(PreemptionDataTest, DataOfRandomExecutionTimesAreThoseWithoutAny) {
     EXPECT_EQ(random.get_overrun_count(), 0U);
 }
 
+// Modes.
+
+enum class Command { kStop };
+Stage g_fast{"fast"};
+Stage g_slow{"slow"};
+constexpr auto kModes =
+    system(frame(1000_ns), window("fast", 0_ns, 20_ns, every(100_ns), budget(20_ns), run(g_fast)),
+           window("slow", 50_ns, 800_ns, background(), budget(400_ns), run(g_slow)),
+           system_mode("work", runs(g_fast, g_slow)), safe_mode("halt", runs(g_fast)),
+           mode_transition("work", Command::kStop, "halt"));
+MAMORI_CHECK(kModes);
+
+TEST(PreemptionModeTest, AModeSwitchStopsABackgroundComponentInTheAgreedFrame) {
+    verifies("SWR-VTM-010", Technique::kStateTransition);
+    static Machine<kModes> machine;
+    SystemModes& modes = machine.get_executives().get_modes();
+    std::vector<std::int64_t> slow;
+    std::vector<std::int64_t> fast;
+    const auto after_frame = [&](std::uint64_t number) {
+        slow.push_back(g_slow.out.get_published());
+        fast.push_back(g_fast.out.get_published());
+        if (number == 2U) {
+            EXPECT_EQ(modes.request(Command::kStop), Status::kOk);
+        }
+    };
+
+    ASSERT_EQ(machine.run(6U, after_frame), Status::kOk);
+
+    ASSERT_EQ(slow.size(), 6U);
+    EXPECT_NE(slow[1], slow[0]);
+    EXPECT_NE(slow[2], slow[1]);
+    EXPECT_NE(slow[3], slow[2]) << "both executives agree on the switch in this frame";
+    for (std::size_t frame = 4U; frame < 6U; ++frame) {
+        EXPECT_EQ(slow[frame], slow[3]) << frame;
+        EXPECT_NE(fast[frame], fast[frame - 1U]) << frame;
+    }
+    EXPECT_EQ(modes.get_mode(), 1U);
+}
+
 }  // namespace
 }  // namespace mamori::ports::virtual_time

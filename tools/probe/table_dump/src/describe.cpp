@@ -63,6 +63,9 @@ std::string describe_window(const Finding& finding, const SystemView& view) {
             return "its budget of " + format(row.execution_budget) + " does not fit into its length of " +
                    format(row.length) + " with the windows of core " + std::to_string(row.background_of) +
                    " that preempt it and the publication margin of " + format(view.publication_margin);
+        case Rule::kStackOutOfRange:
+            return "its stack is not a multiple of 1 KiB in 1 KiB .. " + std::to_string(kStackKibMax) +
+                   " KiB";
         case Rule::kRateNotOccurrences:
             return "its rate of " + format_rate(row.rate_hz) + " does not match its window starts, every " +
                    format(row.period);
@@ -183,6 +186,7 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kWindowsOverlap:
         case Rule::kBudgetExceedsWindow:
         case Rule::kBackgroundTooSlow:
+        case Rule::kStackOutOfRange:
         case Rule::kWorstCasesExceedBudget:
         case Rule::kRateNotOccurrences:
         case Rule::kRateNotReachable:

@@ -143,6 +143,13 @@ TEST_F(DescribeTest, ABudgetIsComparedWithItsWindow) {
                                           "of 200 us"});
 }
 
+TEST_F(DescribeTest, AStackIsComparedWithItsRange) {
+    verifies("SWR-TAB-003");
+    table_.windows[0].stack_kib = kStackKibMax + 1U;
+    EXPECT_EQ(describe_table(), Sentences{"window 'sense': its stack is not a multiple of 1 KiB in 1 KiB .. "
+                                          "65534 KiB"});
+}
+
 TEST_F(DescribeTest, ABackgroundWindowIsComparedWithTheWindowsThatPreemptIt) {
     verifies("SWR-TAB-003");
     const auto check_budget = [](Duration limit, Duration length) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Options of a window: its budget, period, core, class, partition and trigger. Each option is defined next
-/// to the function that writes it to the row.
+/// Options of a window: its budget, period, core, class, partition, stack and trigger. Each option is defined
+/// next to the function that writes it to the row.
 ///
-/// @satisfies SWR-KRN-017, SWR-KRN-080      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-017, SWR-KRN-080, SWR-KRN-094      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_OPTION_HPP
 #define MAMORI_KERNEL_WINDOW_OPTION_HPP
 
@@ -66,6 +66,24 @@ constexpr Partition partition(const char* name) noexcept {
     return {name};
 }
 
+/// Made by stack().
+struct Stack {
+    std::size_t size;
+};
+/// Stack of the components of the window, for a port that gives the window a stack of its own. Without it:
+/// the default of the port.
+/// @param[in] size [byte] for its components; the port adds what a thread needs itself. A multiple of 1 KiB,
+///                 1 KiB .. kStackKibMax KiB (Rule::kStackOutOfRange).
+constexpr Stack stack(std::size_t size) noexcept {
+    return {size};
+}
+
+inline namespace literals {
+constexpr std::size_t operator""_KiB(unsigned long long value) noexcept {
+    return static_cast<std::size_t>(value) * 1024U;
+}
+}  // namespace literals
+
 /// Made by triggered_by().
 struct TriggeredBy {
     ExternalTrigger& trigger;
@@ -103,6 +121,12 @@ constexpr void apply(WindowRow& row, Background) noexcept {
 }
 constexpr void apply(WindowRow& row, Partition option) noexcept {
     row.partition = option.name;
+}
+/// A size out of range becomes one that the table check rejects.
+constexpr void apply(WindowRow& row, Stack option) noexcept {
+    const std::size_t kib = option.size / 1024U;
+    const bool is_in_range = option.size % 1024U == 0U && kib >= 1U && kib <= kStackKibMax;
+    row.stack_kib = static_cast<std::uint16_t>(is_in_range ? kib : kStackKibMax + 1U);
 }
 constexpr void apply(WindowRow& row, TriggeredBy option) noexcept {
     row.kind = ExecutionKind::kOther;

@@ -55,7 +55,8 @@ constexpr auto finish_window(WindowRow row, const Option& option, const Options&
 /// @param[in] name    static storage, unique; shown in compiler messages and reports.
 /// @param[in] offset  >= 0. @param[in] length > 0; offset + length <= period.
 /// @param[in] options budget(...) and, last, run(...); also every(...), rate(...), core(...), background(),
-///                    partition(...), and one of triggered_by(...), event_driven(...). Each at most once.
+///                    partition(...), stack(...), and one of triggered_by(...), event_driven(...). Each at
+///                    most once.
 template <typename... Options>
 constexpr auto window(const char* name, Duration offset, Duration length,
                       const Options&... options) noexcept {

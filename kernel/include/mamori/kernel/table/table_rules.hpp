@@ -63,6 +63,8 @@
     X(BackgroundTooSlow, BackgroundWindowCanComplete, Window,                                              \
       "the budget of a background window, the budgets of the windows that preempt it meanwhile and the "   \
       "publication margin end within its length plus the margin")                                          \
+    X(StackOutOfRange, StackIsInRange, Window,                                                             \
+      "the stack of a window is a multiple of 1 KiB, from 1 KiB to 65534 KiB")                             \
     X(WorstCasesExceedBudget, WorstCasesFitBudget, Window,                                                 \
       "the declared worst cases of a window together fit into its budget")                                 \
     X(RateNotOccurrences, RateEqualsOccurrences, Window,                                                   \

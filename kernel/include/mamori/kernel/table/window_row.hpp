@@ -20,6 +20,9 @@ namespace mamori {
 /// Maximum number of rates of a window in addition to the first.
 inline constexpr std::size_t kAlternativeRateMax = 4U;
 
+/// Largest stack of a window [KiB].
+inline constexpr std::uint16_t kStackKibMax = 65534U;
+
 /// One window: starts at `offset`, `offset + period`, ... of each major frame. Its components form one
 /// execution context.
 struct WindowRow {
@@ -50,13 +53,14 @@ struct WindowRow {
     std::size_t parameter_count{0U};
     ExternalTrigger* trigger{nullptr};  ///< its ticks release the cycles of kind kOther
     ExecutionKind kind{ExecutionKind::kPeriodic};
-    std::uint16_t events_per_cycle{1U};  ///< maximum per state machine for kind kEventDriven, >= 1
     std::uint8_t alternative_count{0U};
-    bool has_second_pass{true};  ///< one of its components overrides on_state_update
-    bool has_outputs{true};      ///< one of its components has an output
-    bool has_deliveries{true};   ///< one of its outputs feeds a queue or a crossing
-    bool has_hand_on{false};     ///< one of its connections is forward in the window
-    bool has_rate{false};        ///< `rate_hz` is declared
+    std::uint16_t events_per_cycle{1U};  ///< maximum per state machine for kind kEventDriven, >= 1
+    std::uint16_t stack_kib{0U};  ///< stack of its components [KiB], 1 .. kStackKibMax; 0: not declared
+    bool has_second_pass{true};   ///< one of its components overrides on_state_update
+    bool has_outputs{true};       ///< one of its components has an output
+    bool has_deliveries{true};    ///< one of its outputs feeds a queue or a crossing
+    bool has_hand_on{false};      ///< one of its connections is forward in the window
+    bool has_rate{false};         ///< `rate_hz` is declared
 };
 
 /// Whether ordinary windows of its core preempt the window.

@@ -3,7 +3,8 @@
 /// Rules of windows: names, triggers, position in the major frame, execution times and rates of their
 /// components. Not for users.
 ///
-/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-081      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-018, SWR-KRN-025, SWR-KRN-081, SWR-KRN-094      Design:
+/// docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_CHECK_HPP
 #define MAMORI_KERNEL_WINDOW_CHECK_HPP
 
@@ -70,6 +71,9 @@ constexpr bool is_rate_of(double rate_hz, Duration period) noexcept {
 
 constexpr void check_window_load(const SystemView& view, std::size_t i, FindingList& findings) noexcept {
     const WindowRow& row = view.windows[i];
+    if (row.stack_kib > kStackKibMax) {
+        findings.add(Rule::kStackOutOfRange, i);
+    }
     Duration left = get_declared_budget(row);
     for (std::size_t c = row.first_component; c < row.first_component + row.component_count; ++c) {
         const Duration worst_case = view.component_rows[c].worst_case;

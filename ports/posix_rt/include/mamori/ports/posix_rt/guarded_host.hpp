@@ -20,6 +20,7 @@
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/base/status.hpp"
 #include "mamori/kernel/component/window_host.hpp"
+#include "mamori/kernel/table/window_row.hpp"
 #include "mamori/ports/posix_rt/crash_stack.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
@@ -94,6 +95,12 @@ class GuardedHost final : public WindowHost {
     GuardedHost& operator=(const GuardedHost&) = delete;
     ~GuardedHost() = default;
 
+    /// The same for one executive of a system: starts only the threads of its windows. @param[in] windows of
+    /// the system, one per thread; must outlive the host. @param[in] core the executive.
+    GuardedHost(Span<WindowThread> threads, Span<const WindowRow> windows, std::size_t core,
+                const FrameClock& clock, ThreadPlace place) noexcept
+        : threads_(threads), windows_(windows), core_(core), clock_(clock), place_(place) {}
+
     /// Starts the threads; the calling thread is the one that will run the windows.
     /// @return kOk; kPreconditionNotMet (open already); kOutOfResources (no thread, or none with its stack);
     ///         kBadParameter (the windows have a fixed priority that is not below that of the thread that
@@ -129,7 +136,14 @@ class GuardedHost final : public WindowHost {
     void demote(WindowThread& thread) noexcept;
     void promote(WindowThread& thread) noexcept;
 
+    /// Whether this host starts, uses and ends the thread of `window`.
+    bool is_own(std::size_t window) const noexcept {
+        return windows_.empty() || windows_[window].core == core_;
+    }
+
     Span<WindowThread> threads_;
+    Span<const WindowRow> windows_{};
+    std::size_t core_{0U};
     const FrameClock& clock_;
     ThreadPlace place_;
     Right priority_right_{};

@@ -51,13 +51,14 @@ class Machine<kTable, std::index_sequence<kCores...>> final {
   public:
     explicit Machine(const MachineOptions& options = {}) noexcept
         : options_(options),
-          hosts_{GuardedHost{threads_[kCores], clock_, get_window_place(options, kCores)}...},
+          hosts_{GuardedHost{threads_, kTable.windows, kCores, clock_, get_window_place(options, kCores)}...},
           runners_{CoreRunner{executives_.get(kCores), hosts_[kCores], clock_}...} {
-        for (auto& threads : threads_) {
-            for (std::size_t window = 0U; window < threads.size(); ++window) {
-                static_cast<void>(
-                    threads[window].set_execution_budget(kTable.windows[window].execution_budget));
-            }
+        for (std::size_t window = 0U; window < threads_.size(); ++window) {
+            const WindowRow& row = kTable.windows[window];
+            const std::size_t declared = row.stack_kib * std::size_t{1024U};
+            static_cast<void>(threads_[window].set_execution_budget(row.execution_budget));
+            static_cast<void>(
+                threads_[window].set_stack_size(declared == 0U ? 0U : declared + kThreadStackMin));
         }
     }
     Machine(const Machine&) = delete;
@@ -138,8 +139,7 @@ class Machine<kTable, std::index_sequence<kCores...>> final {
     MachineOptions options_;
     Executives<kTable> executives_{};
     FrameClock clock_{FrameClock::at_epoch(0)};
-    std::array<std::array<WindowThread, mamori::detail::TableType<kTable>::kWindowCount>, kCoreCount>
-        threads_{};
+    std::array<WindowThread, mamori::detail::TableType<kTable>::kWindowCount> threads_{};
     std::array<GuardedHost, kCoreCount> hosts_;
     std::array<CoreRunner, kCoreCount> runners_;
     MachineRun run_{};

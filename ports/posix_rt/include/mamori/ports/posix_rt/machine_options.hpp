@@ -36,8 +36,8 @@ struct MachineOptions {
     int priority{80};
     /// Processor of core 0, 1, ...; empty: any processor. Must outlive the machine.
     Span<const int> processors{};
-    /// Stack of each window thread, and of each thread that runs windows and calls the devices [byte]:
-    /// kThreadStackMin or more.
+    /// Stack of each window thread whose window declares none by stack(...), and of each thread that runs
+    /// windows and calls the devices [byte]: kThreadStackMin or more.
     std::size_t window_stack{kThreadStack};
     std::size_t runner_stack{std::size_t{1024U} * 1024U};
     /// From the start of the threads to the first major frame, > 0.
