@@ -8,12 +8,14 @@
 #ifndef EXAMPLES_SAFE_ARM_ARM_LIMITS_HPP
 #define EXAMPLES_SAFE_ARM_ARM_LIMITS_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "arm_faults.hpp"
 #include "mamori/kernel/base/time.hpp"
+#include "mamori/safety/arm/arm_device.hpp"
 #include "mamori/safety/arm/guards.hpp"
+#include "mamori/safety/reaction/brake_sequence.hpp"
 #include "mamori/safety/reaction/safe_state_machine.hpp"
 #include "mamori/safety/supervision/execution_supervisor.hpp"
 #include "mamori/safety/supervision/watchdog_gate.hpp"
@@ -36,8 +38,9 @@ constexpr mamori::safety::JointVector scale(const mamori::safety::JointVector& a
     return result;
 }
 /// -limit .. limit for each joint.
-constexpr mamori::safety::JointRanges make_ranges(const mamori::safety::JointVector& limits) noexcept {
-    mamori::safety::JointRanges ranges{};
+constexpr std::array<mamori::safety::AxisRange, mamori::safety::kArmJointCount> make_ranges(
+    const mamori::safety::JointVector& limits) noexcept {
+    std::array<mamori::safety::AxisRange, mamori::safety::kArmJointCount> ranges{};
     for (std::size_t j = 0U; j < mamori::safety::kArmJointCount; ++j) {
         ranges[j] = {-limits[j], limits[j]};
     }
@@ -63,6 +66,10 @@ inline constexpr mamori::safety::JointVector kMaxStepRad{0.0016, 0.0016, 0.0028,
 /// like.
 inline constexpr mamori::safety::JointVector kTorqueLimitNm{232.0, 232.0, 100.0, 100.0, 14.5, 14.5, 14.5};
 
+/// Frames in a row in which a fault must be seen before it is latched; other faults in the first one.
+inline constexpr std::uint32_t kDiscrepancyFrames = 2U;
+inline constexpr std::uint32_t kOverspeedFrames = 2U;
+inline constexpr std::uint32_t kTorqueDeviationFrames = 3U;
 /// Channels A and B may differ by this much [rad]: mounting error plus the step of the coarser one.
 inline constexpr double kDiscrepancyRad = 0.004;
 /// Distance between setpoint and measured position [rad]; the fault-free motion stays below 0.02 rad.
@@ -71,11 +78,11 @@ inline constexpr double kFollowingErrorRad = 0.03;
 inline constexpr double kStuckTravelRad = 0.004;
 /// Share of the torque limit by which measured and commanded torque may differ [-].
 inline constexpr double kTorqueDeviationShare = 0.15;
-inline constexpr mamori::safety::JointRanges kSafeRange = make_ranges(kSafePositionRad);
+inline constexpr auto kSafeRange = make_ranges(kSafePositionRad);
 /// Channel B is judged against a position of channel A. When A freezes, B leaves it by one step per frame: it
 /// must stay plausible until the discrepancy is confirmed, or the sound channel would be the distrusted one.
 inline constexpr mamori::safety::JointVector kMaxStepBRad =
-    scale(kMaxStepRad, kConfirmFrames[to_index(ArmFault::kEncoderDiscrepancy)], kDiscrepancyRad);
+    scale(kMaxStepRad, kDiscrepancyFrames, kDiscrepancyRad);
 inline constexpr mamori::safety::JointVector kTorqueDeviationNm =
     scale(kTorqueLimitNm, kTorqueDeviationShare, 0.0);
 static_assert(mamori::safety::are_valid(kSafeRange) && mamori::safety::are_valid(kSafeSpeedRadS) &&
@@ -97,6 +104,7 @@ inline constexpr mamori::safety::StopBounds kStopBounds{400_ms, 400_ms};
 inline constexpr mamori::Duration kTorqueFeedbackTime = 20_ms;
 /// Brake feedback may contradict the command for this long: opening and closing delay with margin.
 inline constexpr mamori::Duration kBrakeFeedbackTime = 100_ms;
+inline constexpr mamori::safety::BrakeLimits kBrakes{kBrakeFeedbackTime, true};
 /// The power-up self test must see this many good frames in a row, and within this time.
 inline constexpr std::uint32_t kSelfTestFrames = 20U;
 inline constexpr mamori::Duration kSelfTestTime = 500_ms;

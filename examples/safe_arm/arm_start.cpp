@@ -53,10 +53,10 @@ std::string describe_failed_start() {
 std::string prepare_system(const mamori::sim::ArmModel& model, const MotionTrack& track,
                            mamori::sim::ComputedTorqueController& law) {
     controller.configure(track, law, Instant{} + kMotionStart);
-    if (reader.configure(get_encoder_scale(model)) != Status::kOk || watch_components() != Status::kOk) {
+    if (reader.configure(get_encoder_scale(model)) != Status::kOk) {
         return "the system was prepared before";
     }
-    executive.set_observer(&supervision);
+    executive.set_observer(&safety_state.get_observer());
     return {};
 }
 

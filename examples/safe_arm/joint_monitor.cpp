@@ -4,20 +4,11 @@
 namespace safe_arm {
 namespace {
 
-using mamori::safety::JointSet;
+using mamori::safety::AxisSet;
 
 /// The fault, when any joint is in the set.
-std::uint32_t flag(const JointSet& joints, ArmFault fault) noexcept {
+std::uint32_t flag(const AxisSet& joints, ArmFault fault) noexcept {
     return joints.is_empty() ? 0U : to_bit(fault);
-}
-
-JointSet unite(JointSet a, const JointSet& b) noexcept {
-    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
-        if (b.contains(j)) {
-            a.insert(j);
-        }
-    }
-    return a;
 }
 
 }  // namespace
@@ -84,10 +75,10 @@ void JointMonitor::begin_history(const JointReading& now) noexcept {
 /// distrusted channel stays distrusted until a person resets the machine while no torque flows; channels that
 /// still contradict each other are reported again then.
 std::uint32_t JointMonitor::judge_channels(const JointReading& now, JointVector& position_rad) noexcept {
-    const JointSet distrusted_before = distrusted_a_;
+    const AxisSet distrusted_before = distrusted_a_;
     distrusted_a_ = unite(distrusted_a_, calc_jumps(now.position_a_rad, last_rad_, kMaxStepRad));
     distrusted_b_ = unite(distrusted_b_, calc_jumps(now.position_b_rad, last_rad_, kMaxStepBRad));
-    const JointSet differing =
+    const AxisSet differing =
         calc_discrepancies(now.position_a_rad, now.position_b_rad, make_uniform(kDiscrepancyRad));
     std::uint32_t faults = 0U;
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
@@ -140,8 +131,8 @@ std::uint32_t JointMonitor::judge_motion(const JointState& now) const noexcept {
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
         stopped_rad[j] = now.position_rad[j] + now.velocity_rad_s[j] * mamori::to_seconds(kStopTime);
     }
-    const JointSet outside = unite(calc_position_violations(now.position_rad, kSafeRange),
-                                   calc_position_violations(stopped_rad, kSafeRange));
+    const AxisSet outside = unite(calc_position_violations(now.position_rad, kSafeRange),
+                                  calc_position_violations(stopped_rad, kSafeRange));
     std::uint32_t faults =
         flag(calc_speed_violations(now.velocity_rad_s, kSafeSpeedRadS), ArmFault::kOverspeed) |
         flag(outside, ArmFault::kPositionLimit);

@@ -54,8 +54,8 @@ class JointMonitor final : public mamori::Component {
     JointVector last_rad_{};  ///< trusted positions of the cycle before
     JointReading last_{};
     JointVector stuck_since_rad_{};  ///< setpoint when a count of the joint last changed
-    mamori::safety::JointSet distrusted_a_{};
-    mamori::safety::JointSet distrusted_b_{};
+    mamori::safety::AxisSet distrusted_a_{};
+    mamori::safety::AxisSet distrusted_b_{};
     mamori::safety::RisingEdge reset_edge_{};
     StandstillDetector standstill_{make_uniform(kStandstillRadS), kStandstillTime};
     mamori::Duration brake_contradiction_for_{};

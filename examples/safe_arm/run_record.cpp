@@ -19,6 +19,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using mamori::Duration;
 using mamori::Instant;
+using mamori::safety::CycleEvent;
+using mamori::safety::kCycleEventNames;
+using mamori::safety::Reaction;
 using mamori::safety::SafeState;
 
 /// Start of the check of the tracking error: the brakes have opened and the position control has settled.
@@ -49,16 +52,16 @@ std::string make_series_header() {
 
 /// Name of the argument of an event.
 std::string describe_argument(const mamori::Event& event) {
-    switch (static_cast<ArmEvent>(event.code)) {
-        case ArmEvent::kStateEntered:
+    switch (static_cast<CycleEvent>(event.code)) {
+        case CycleEvent::kStateEntered:
             return get_name(static_cast<SafeState>(event.argument));
-        case ArmEvent::kFaultLatched:
+        case CycleEvent::kFaultLatched:
             return kArmFaultNames[static_cast<std::size_t>(event.argument)];
-        case ArmEvent::kReactionBegun:
+        case CycleEvent::kReactionBegun:
             return get_name(static_cast<Reaction>(event.argument));
-        case ArmEvent::kAssumptionFailed:
+        case CycleEvent::kAssumptionFailed:
             return kArmAssumptionNames.at(static_cast<std::size_t>(event.argument));
-        case ArmEvent::kWatchdogRefused:
+        case CycleEvent::kWatchdogRefused:
             break;
     }
     return std::to_string(event.argument);
@@ -72,7 +75,7 @@ std::string make_events_text(const mamori::EventLog& events) {
         text += std::to_string(event.sequence);
         append(text, to_seconds(event.time - Instant{}));
         text += std::string(",") + kSeverities[static_cast<std::size_t>(event.severity)] + ",supervisor," +
-                kArmEventNames.at(event.code) + "," + describe_argument(event) + "\n";
+                kCycleEventNames.at(event.code) + "," + describe_argument(event) + "\n";
     }
     return text;
 }

@@ -14,6 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using mamori::Status;
+using mamori::safety::kCycleEventNames;
+using mamori::safety::Reaction;
 using mamori::safety::SafeState;
 
 /// Names of the enumerators from `first` to `last`, by number.
@@ -28,11 +30,11 @@ Json make_names(Enum first, Enum last) {
 
 /// The table that `mamori log` reads: docs/design/recorder.md.
 std::string make_name_table() {
-    constexpr std::array<const char*, kArmEventNames.size()> kArguments{"state", "fault", "reaction", "",
-                                                                        "assumption"};
+    constexpr std::array<const char*, kCycleEventNames.size()> kArguments{"state", "fault", "reaction", "",
+                                                                          "assumption"};
     Json codes = Json::object();
-    for (std::size_t code = 0U; code < kArmEventNames.size(); ++code) {
-        codes[std::to_string(code)] = {{"name", kArmEventNames[code]}, {"argument", kArguments[code]}};
+    for (std::size_t code = 0U; code < kCycleEventNames.size(); ++code) {
+        codes[std::to_string(code)] = {{"name", kCycleEventNames[code]}, {"argument", kArguments[code]}};
     }
     Json faults = Json::object();
     for (std::size_t fault = 0U; fault < kArmFaultCount; ++fault) {

@@ -3,9 +3,14 @@
 #include "safe_arm_system.hpp"
 
 #include "arm_assumptions.hpp"
-#include "mamori/safety/supervision/watch_check.hpp"
+#include "arm_safety.hpp"
 
 namespace safe_arm {
+
+using mamori::safety::alive;
+using mamori::safety::deadline;
+using mamori::safety::raises;
+using mamori::safety::supervise;
 
 // Components are defined beside their table: the compiler then compares their addresses under every
 // sanitizer.
@@ -19,17 +24,21 @@ static ArmChecks checks{watchdog};
 static constexpr std::array kAssumptions = make_arm_assumptions(checks);
 static_assert(mamori::safety::checks_all<kAssumptions, ArmAssumption::kCount>());
 static mamori::safety::AssumptionMonitor assumptions{kAssumptions};
-static DecisionFlow decision_flow;
 
 ArmReader reader{inputs};
 JointMonitor monitor;
-SafetySupervisor supervisor{supervision, controller, watchdog, event_log, assumptions, decision_flow};
+SafetySupervisor supervisor{safety_state, event_log};
 MotionController controller;
 mamori::ports::virtual_time::SimulatedChannel<TorqueCommand, kChannelCapacity> channel{"channel"};
 DriveGate gate{outputs};
 
-static constexpr auto kSafeArm = mamori::system(
-    mamori::frame(kFrame), mamori::trace_hash(),
+static constexpr auto kSafeArm = mamori::safety::system(
+    mamori::frame(kFrame), mamori::trace_hash(), make_arm_safety(kLatenessMax),
+    supervise(reader, alive(), deadline(kSafetyComponentMax)),
+    supervise(monitor, alive(), deadline(kSafetyComponentMax)),
+    supervise(supervisor, alive(), deadline(kSafetyComponentMax)),
+    supervise(gate, alive(), deadline(kSafetyComponentMax)),
+    supervise(controller, alive(), deadline(kControllerMax), raises(ArmFault::kControllerSilent)),
     mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),
     mamori::window("control", 300_us, 400_us, mamori::budget(350_us), mamori::run(controller)),
     mamori::window("transport", 700_us, 100_us, mamori::budget(80_us), mamori::run(channel)),
@@ -39,6 +48,7 @@ static constexpr auto kSafeArm = mamori::system(
     mamori::connect(gate.drive, monitor.drive, mamori::any_age()),
     mamori::connect(reader.reading, supervisor.reading, mamori::any_age()),
     mamori::connect(monitor.state, supervisor.arm_state, mamori::any_age()),
+    mamori::connect(gate.drive, supervisor.drive, mamori::any_age()),
     mamori::connect(monitor.state, controller.state, mamori::any_age()),
     mamori::connect(supervisor.stop, controller.stop, mamori::any_age()),
     mamori::connect(controller.command, channel.in, mamori::any_age()),
@@ -48,10 +58,10 @@ static constexpr auto kSafeArm = mamori::system(
     mamori::modelled_time(supervisor, kSafetyComponentTime),
     mamori::modelled_time(controller, kControllerTime), mamori::modelled_time(channel, kSafetyComponentTime),
     mamori::modelled_time(gate, kSafetyComponentTime));
-MAMORI_CHECK(kSafeArm);
+MAMORI_SAFETY_CHECK(kSafeArm);
 
-static mamori::safety::ExecutionStorageFor<kSafeArm> supervision_storage;
-mamori::safety::ExecutionSupervisor supervision{supervision_storage, kLatenessMax};
+static mamori::safety::SafetyStorage<kSafeArm> safety_storage;
+mamori::safety::SafetyState safety_state{safety_storage, watchdog, &assumptions};
 constexpr std::size_t kFirstWindow = mamori::index_of(kSafeArm, "protect");
 constexpr std::size_t kLastWindow = mamori::index_of(kSafeArm, "act");
 
@@ -61,19 +71,6 @@ mamori::ports::virtual_time::VirtualHost& virtual_host = machine_of_table.get_ho
 mamori::ports::virtual_time::MachineBase& simulation = machine_of_table;
 static mamori::IntrospectionFor introspection_of_table{kSafeArm};
 mamori::Introspection& introspection = introspection_of_table;
-
-static constexpr mamori::safety::ComponentLimits kSafetyLimits{
-    kAliveLimits, {0_us, kSafetyComponentMax}, mamori::safety::SupervisionScope::kGlobal};
-static constexpr std::array kLimits = {
-    mamori::safety::watch(reader, kSafetyLimits), mamori::safety::watch(monitor, kSafetyLimits),
-    mamori::safety::watch(supervisor, kSafetyLimits), mamori::safety::watch(gate, kSafetyLimits),
-    mamori::safety::watch(controller,
-                          {kAliveLimits, {0_us, kControllerMax}, mamori::safety::SupervisionScope::kLocal})};
-static_assert(mamori::safety::is_watch_list_of<kSafeArm, kLimits>());
-
-mamori::Status watch_components() noexcept {
-    return supervision.watch(kLimits);
-}
 
 mamori::Status simulate(std::uint64_t frames, mamori::Devices& devices) noexcept {
     return machine_of_table.run(frames, devices);

@@ -37,7 +37,9 @@ extern mamori::safety::ArmInputs inputs;
 extern mamori::safety::ArmOutputs outputs;
 extern mamori::EventLog event_log;
 extern mamori::ports::virtual_time::VirtualWatchdog watchdog;
-extern mamori::safety::ExecutionSupervisor supervision;
+/// The channel carries and is not supervised; what it does wrong shows in its messages. The controller is not
+/// safety-related: its failure is a fault with a reaction and leaves the watchdog alone.
+extern mamori::safety::SafetyState safety_state;
 
 extern ArmReader reader;
 extern JointMonitor monitor;
@@ -58,12 +60,6 @@ extern mamori::ports::virtual_time::MachineBase& simulation;
 /// Modelled execution times.
 inline constexpr mamori::Duration kSafetyComponentTime = 30_us;
 inline constexpr mamori::Duration kControllerTime = 120_us;
-
-/// Puts the components under supervision. The channel carries and does not decide; what it does wrong shows
-/// in its messages. The controller is not safety-related: its failure is a fault with a reaction and leaves
-/// the watchdog alone.
-/// @return kOk; kPreconditionNotMet (done before).
-mamori::Status watch_components() noexcept;
 
 /// Starts the system, runs `frames` major frames in virtual time and stops the system.
 /// @return as mamori::ports::virtual_time::Machine::run().

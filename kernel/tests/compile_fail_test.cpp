@@ -100,13 +100,22 @@ TEST(CompileFailTest, AWindowThatServesNoEventIsRefused) {
 }
 
 TEST(CompileFailTest, ADeclaredFaultWithoutAReactionIsRefused) {
-    verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
+    verifies("SWR-FLT-004", Technique::kInterface, Polarity::kViolation);
     expect_refused("reactions", "fault_without_reaction", "FaultHasReaction<Fault::kTrackingLost>");
 }
 
 TEST(CompileFailTest, ADeclaredFaultWithTwoReactionsIsRefused) {
-    verifies("SWR-KRN-018", Technique::kInterface, Polarity::kViolation);
+    verifies("SWR-FLT-004", Technique::kInterface, Polarity::kViolation);
     expect_refused("reactions", "fault_with_two_reactions", "FaultHasOneReaction<Fault::kOverspeed>");
+}
+
+TEST(CompileFailTest, AFaultWithoutOrWithTwoReactionsInAModeIsRefused) {
+    verifies("SWR-FLT-011", Technique::kInterface, Polarity::kViolation);
+    expect_refused("reactions", "fault_without_reaction_in_a_mode",
+                   "FaultHasReaction<Fault::kOverspeed, mamori::Name<'h', 'a', 'l', 't'>");
+    expect_refused("reactions", "fault_with_two_reactions_in_a_mode",
+                   "FaultHasOneReaction<Fault::kOverspeed, mamori::Name<'h', 'a', 'l', 't'>");
+    expect_refused("reactions", "reaction_in_unknown_mode", "ReactionHasKnownModes<mamori::rules::Row<0>");
 }
 
 TEST(CompileFailTest, AReactionWithoutTimeIsRefused) {
@@ -454,7 +463,7 @@ TEST(CompileFailTest, AnActionBudgetOutsideItsRangeIsRejected) {
 
 TEST(CompileFailTest, ASecondActionBudgetIsRejected) {
     verifies("SWR-KRN-092", Technique::kInterface, Polarity::kViolation);
-    expect_refused("modelled_times", "", "duplicate action_budget(...); specify it at most once", "5");
+    expect_explained("modelled_times", "", "duplicate action_budget(...); specify it at most once", "5");
 }
 
 TEST(CompileFailTest, ACheckedTableThatBreaksARuleOrIsThatOfAnotherExecutiveIsRefused) {

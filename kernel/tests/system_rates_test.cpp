@@ -324,11 +324,18 @@ TEST(SystemRatesTest, AQueueBetweenCoresKeepsThePublicationMarginInEachPeriod) {
     EXPECT_EQ(check_margin(800_us + 1_ns), Rules{Rule::kMarginNotKept});
 }
 
+TEST(SystemRatesTest, OneReactionForEachFaultIsAccepted) {
+    verifies("SWR-FLT-004", Technique::kEquivalenceClasses);
+    EXPECT_EQ(list_rules(system(frame(1_ms), faults<Fault::kHot, Fault::kFast>(),
+                                react(Fault::kFast, Reaction::kStop, within(1_ms)),
+                                react(Fault::kHot, Reaction::kStop, within(1_ns)))),
+              Rules{});
+}
+
 TEST(SystemRatesTest, EveryFaultHasOneReactionAndEveryReactionAFaultAndTime) {
     verifies("SWR-KRN-018", Technique::kEquivalenceClasses, Polarity::kViolation);
     const auto stop = react(Fault::kHot, Reaction::kStop, within(1_ns));
 
-    EXPECT_EQ(list_rules(system(frame(1_ms), faults<Fault::kHot>(), stop)), Rules{});
     EXPECT_EQ(list_rules(system(frame(1_ms), faults<Fault::kHot>())), Rules{Rule::kFaultWithoutReaction});
     EXPECT_EQ(list_rules(system(frame(1_ms), faults<Fault::kHot>(), stop, stop)),
               Rules{Rule::kFaultWithTwoReactions});
@@ -336,6 +343,84 @@ TEST(SystemRatesTest, EveryFaultHasOneReactionAndEveryReactionAFaultAndTime) {
     EXPECT_EQ(list_rules(system(frame(1_ms), faults<Fault::kHot>(),
                                 react(Fault::kHot, Reaction::kStop, within(0_ns)))),
               Rules{Rule::kReactionWithoutTime});
+}
+
+enum class Mode { kWork, kTeach, kHalt };
+enum class Command { kTeach };
+
+/// A system of three modes with one fault.
+template <typename... Reactions>
+auto make_system_with_modes(const Reactions&... reactions) {
+    return system(frame(1_ms), window("a", 0_us, 100_us, budget(100_us), run(g_counter)),
+                  system_mode("work", runs(g_counter)), system_mode("teach", runs(g_counter)),
+                  safe_mode("halt", runs(g_counter)), mode_transition("work", Command::kTeach, "teach"),
+                  faults<Fault::kHot>(), reactions...);
+}
+constexpr auto kInWork = react(Fault::kHot, Reaction::kStop, within(1_ms), in_modes<Mode::kWork>());
+constexpr auto kElsewhere =
+    react(Fault::kHot, Reaction::kSlow, within(1_ms), in_modes<Mode::kTeach, Mode::kHalt>());
+
+TEST(SystemRatesTest, AGroupIsItsPartsInOrder) {
+    verifies("SWR-KRN-095");
+    const auto hot = react(Fault::kHot, Reaction::kStop, within(1_ms));
+    const auto fast = react(Fault::kFast, Reaction::kSlow, within(2_ms));
+    const auto joined =
+        system(frame(1_ms),
+               parts(window("a", 0_us, 100_us, budget(100_us), run(g_counter)), parts(),
+                     parts(faults<Fault::kHot>(), hot)),
+               window("b", 100_us, 100_us, budget(100_us), run(g_relay)), parts(faults<Fault::kFast>()), fast,
+               connect(g_counter.out, g_relay.in, any_age()));
+
+    EXPECT_EQ(list_rules(joined), Rules{});
+    EXPECT_EQ(joined.components[0], &g_counter);
+    EXPECT_EQ(joined.components[1], &g_relay);
+    EXPECT_EQ(joined.faults[0].fault, 3U);
+    EXPECT_EQ(joined.faults[1].fault, 7U);
+    EXPECT_EQ(joined.reactions[1].within, 2_ms);
+}
+
+TEST(SystemRatesTest, OneReactionForEachFaultAndModeIsAccepted) {
+    verifies("SWR-FLT-011", Technique::kEquivalenceClasses);
+    const auto table = make_system_with_modes(parts(kInWork, kElsewhere));
+
+    EXPECT_EQ(list_rules(table), Rules{});
+    EXPECT_EQ(table.reactions[0].modes, 1U);
+    EXPECT_EQ(table.reactions[1].modes, 6U);
+    EXPECT_EQ(list_rules(make_system_with_modes(react(Fault::kHot, Reaction::kStop, within(1_ms)))), Rules{});
+}
+
+TEST(SystemRatesTest, EveryFaultHasOneReactionInEachMode) {
+    verifies("SWR-FLT-011", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const auto list_findings = [](const auto& table) {
+        std::array<Finding, 4U> findings{};
+        return check_all(make_view(table), findings) == 1U ? findings[0] : Finding{};
+    };
+
+    const Finding missing = list_findings(make_system_with_modes(kInWork));
+    EXPECT_EQ(missing.rule, Rule::kFaultWithoutReaction);
+    EXPECT_EQ(missing.other, 1U);
+    const Finding twice = list_findings(make_system_with_modes(
+        kInWork, kElsewhere, react(Fault::kHot, Reaction::kStop, within(1_ms), in_modes<Mode::kHalt>())));
+    EXPECT_EQ(twice.rule, Rule::kFaultWithTwoReactions);
+    EXPECT_EQ(twice.other, 2U);
+}
+
+TEST(SystemRatesTest, AReactionNamesModesOfTheTable) {
+    verifies("SWR-FLT-011", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_mask = [](ModeMask mask, auto... modes) {
+        auto table = system(frame(1_ms), window("a", 0_us, 100_us, budget(100_us), run(g_counter)), modes...,
+                            faults<Fault::kHot>(), react(Fault::kHot, Reaction::kStop, within(1_ms)));
+        table.reactions[0].modes = mask;
+        return list_rules(table);
+    };
+    const auto work = system_mode("work", runs(g_counter));
+    const auto halt = safe_mode("halt", runs(g_counter));
+
+    EXPECT_EQ(check_mask(kEveryMode), Rules{});
+    EXPECT_EQ(check_mask(1U), Rules{Rule::kReactionInUnknownMode}) << "a table without modes";
+    EXPECT_EQ(check_mask(0U), (Rules{Rule::kFaultWithoutReaction, Rule::kReactionInUnknownMode}));
+    EXPECT_EQ(check_mask(3U, work, halt), Rules{});
+    EXPECT_EQ(check_mask(7U, work, halt), Rules{Rule::kReactionInUnknownMode});
 }
 
 // Tables made at run time.

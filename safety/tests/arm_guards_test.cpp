@@ -18,11 +18,13 @@ using namespace verification;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr std::array<double, 3U> kNotFinite{kNan, kInf, -kInf};
-constexpr JointVector kZero{};
-constexpr JointVector kLimits{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
-constexpr JointRanges kRanges{
+constexpr std::size_t kAxes = 7U;
+using Axes = std::array<double, kAxes>;
+constexpr Axes kZero{};
+constexpr Axes kLimits{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+constexpr std::array<AxisRange, 7U> kRanges{
     {{-1.0, 1.0}, {-2.0, 0.5}, {0.25, 0.5}, {-3.0, -1.0}, {-1.0, 1.0}, {-1.0, 1.0}, {-1.0, 1.0}}};
-constexpr JointVector kInside{0.0, 0.0, 0.3, -2.0, 0.0, 0.0, 0.0};
+constexpr Axes kInside{0.0, 0.0, 0.3, -2.0, 0.0, 0.0, 0.0};
 
 static_assert(are_valid(kRanges) && are_valid(kLimits));
 
@@ -33,28 +35,28 @@ double below(double value) {
     return std::nextafter(value, -kInf);
 }
 
-JointVector with(JointVector values, std::size_t joint, double value) {
+Axes with(Axes values, std::size_t joint, double value) {
     values[joint] = value;
     return values;
 }
 
-bool is_only(const JointSet& joints, std::size_t joint) {
+bool is_only(const AxisSet& joints, std::size_t joint) {
     return joints.get_bits() == (1U << joint);
 }
 
-using Deviation = JointSet (*)(const JointVector&, const JointVector&, const JointVector&) noexcept;
+using Deviation = AxisSet (*)(AxisValues, AxisValues, AxisValues) noexcept;
 
 void expect_passes_up_to_its_limit(Deviation guard) {
     EXPECT_TRUE(guard(kZero, kZero, kLimits).is_empty());
     EXPECT_TRUE(guard(kInside, kInside, kLimits).is_empty()) << "far from zero";
-    for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
+    for (std::size_t joint = 0U; joint < kAxes; ++joint) {
         EXPECT_TRUE(guard(with(kZero, joint, kLimits[joint]), kZero, kLimits).is_empty()) << joint;
         EXPECT_TRUE(guard(kZero, with(kZero, joint, kLimits[joint]), kLimits).is_empty()) << joint;
     }
 }
 
 void expect_trips_beyond_its_limit(Deviation guard) {
-    for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
+    for (std::size_t joint = 0U; joint < kAxes; ++joint) {
         const double beyond = above(kLimits[joint]);
         EXPECT_TRUE(is_only(guard(with(kZero, joint, beyond), kZero, kLimits), joint)) << joint;
         EXPECT_TRUE(is_only(guard(with(kZero, joint, beyond), with(kZero, joint, -beyond), kLimits), joint))
@@ -76,18 +78,16 @@ TEST(ArmGuardsTest, PositionInsideItsRangePassesBothEndsIncluded) {
     verifies("SWR-ARM-002", Technique::kBoundaryValues);
 
     EXPECT_TRUE(calc_position_violations(kInside, kRanges).is_empty());
-    for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
-        EXPECT_TRUE(
-            calc_position_violations(with(kInside, joint, kRanges[joint].min_rad), kRanges).is_empty());
-        EXPECT_TRUE(
-            calc_position_violations(with(kInside, joint, kRanges[joint].max_rad), kRanges).is_empty());
+    for (std::size_t joint = 0U; joint < kAxes; ++joint) {
+        EXPECT_TRUE(calc_position_violations(with(kInside, joint, kRanges[joint].min), kRanges).is_empty());
+        EXPECT_TRUE(calc_position_violations(with(kInside, joint, kRanges[joint].max), kRanges).is_empty());
     }
 }
 
 TEST(ArmGuardsTest, WidestRangePassesEveryFinitePosition) {
     verifies("SWR-ARM-002", Technique::kBoundaryValues);
     constexpr double kLargest = std::numeric_limits<double>::max();
-    JointRanges ranges;
+    std::array<AxisRange, 7U> ranges;
     ranges.fill({-kLargest, kLargest});
 
     EXPECT_TRUE(are_valid(ranges));
@@ -98,19 +98,19 @@ TEST(ArmGuardsTest, WidestRangePassesEveryFinitePosition) {
 TEST(ArmGuardsTest, PositionOutsideItsRangeNamesTheJoint) {
     verifies("SWR-ARM-002", Technique::kBoundaryValues, Polarity::kViolation);
 
-    for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
-        const JointVector low = with(kInside, joint, below(kRanges[joint].min_rad));
-        const JointVector high = with(kInside, joint, above(kRanges[joint].max_rad));
+    for (std::size_t joint = 0U; joint < kAxes; ++joint) {
+        const Axes low = with(kInside, joint, below(kRanges[joint].min));
+        const Axes high = with(kInside, joint, above(kRanges[joint].max));
         EXPECT_TRUE(is_only(calc_position_violations(low, kRanges), joint)) << joint;
         EXPECT_TRUE(is_only(calc_position_violations(high, kRanges), joint)) << joint;
         for (const double value : kNotFinite) {
             EXPECT_TRUE(is_only(calc_position_violations(with(kInside, joint, value), kRanges), joint))
                 << value;
-            JointRanges ranges = kRanges;
-            ranges[joint].max_rad = value;
+            std::array<AxisRange, 7U> ranges = kRanges;
+            ranges[joint].max = value;
             EXPECT_TRUE(is_only(calc_position_violations(kInside, ranges), joint)) << "upper limit " << value;
             ranges = kRanges;
-            ranges[joint].min_rad = value;
+            ranges[joint].min = value;
             EXPECT_TRUE(is_only(calc_position_violations(kInside, ranges), joint)) << "lower limit " << value;
         }
     }
@@ -120,7 +120,7 @@ TEST(ArmGuardsTest, SpeedUpToItsLimitPassesInBothDirections) {
     verifies("SWR-ARM-002", Technique::kBoundaryValues);
 
     EXPECT_TRUE(calc_speed_violations(kLimits, kLimits).is_empty());
-    for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
+    for (std::size_t joint = 0U; joint < kAxes; ++joint) {
         EXPECT_TRUE(calc_speed_violations(with(kZero, joint, -kLimits[joint]), kLimits).is_empty()) << joint;
     }
 }
@@ -128,9 +128,9 @@ TEST(ArmGuardsTest, SpeedUpToItsLimitPassesInBothDirections) {
 TEST(ArmGuardsTest, SpeedBeyondItsLimitNamesTheJoint) {
     verifies("SWR-ARM-002", Technique::kBoundaryValues, Polarity::kViolation);
 
-    for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
-        const JointVector forward = with(kZero, joint, above(kLimits[joint]));
-        const JointVector backward = with(kZero, joint, below(-kLimits[joint]));
+    for (std::size_t joint = 0U; joint < kAxes; ++joint) {
+        const Axes forward = with(kZero, joint, above(kLimits[joint]));
+        const Axes backward = with(kZero, joint, below(-kLimits[joint]));
         EXPECT_TRUE(is_only(calc_speed_violations(forward, kLimits), joint)) << joint;
         EXPECT_TRUE(is_only(calc_speed_violations(backward, kLimits), joint)) << joint;
         for (const double value : kNotFinite) {
@@ -146,30 +146,74 @@ TEST(ArmGuardsTest, LimitTablesThatCannotProtectAreFound) {
     EXPECT_TRUE(are_valid(with(kLimits, 3U, std::numeric_limits<double>::max()))) << "finite";
     EXPECT_TRUE(are_valid(with(kLimits, 3U, std::numeric_limits<double>::denorm_min())));
     EXPECT_FALSE(are_valid(with(kLimits, 6U, -1.0)));
-    EXPECT_FALSE(are_valid(JointRanges{})) << "an empty range";
+    EXPECT_FALSE(are_valid(std::array<AxisRange, 7U>{})) << "an empty range";
     for (const double value : kNotFinite) {
         EXPECT_FALSE(are_valid(with(kLimits, 3U, value))) << value;
-        JointRanges ranges = kRanges;
-        ranges[3].min_rad = value;
+        std::array<AxisRange, 7U> ranges = kRanges;
+        ranges[3].min = value;
         EXPECT_FALSE(are_valid(ranges)) << value;
         ranges = kRanges;
-        ranges[3].max_rad = value;
+        ranges[3].max = value;
         EXPECT_FALSE(are_valid(ranges)) << value;
     }
 }
 
-TEST(ArmGuardsTest, SetOfJointsTellsItsMembers) {
+TEST(ArmGuardsTest, SetOfAxesTellsItsMembers) {
     verifies("SWR-ARM-002", Technique::kInterface);
-    JointSet joints;
-    EXPECT_TRUE(joints.is_empty());
-    EXPECT_EQ(joints.get_first(), kArmJointCount);
+    AxisSet axes;
+    EXPECT_TRUE(axes.is_empty());
+    EXPECT_EQ(axes.get_first(), kAxisMax);
 
-    joints.insert(6U);
-    joints.insert(2U);
-    EXPECT_EQ(joints.get_first(), 2U);
-    EXPECT_TRUE(joints.contains(2U) && joints.contains(6U));
-    EXPECT_FALSE(joints.contains(0U) || joints.contains(7U) || joints.contains(99U));
-    EXPECT_EQ(joints.get_bits(), 0x44U);
+    axes.insert(6U);
+    axes.insert(2U);
+    EXPECT_EQ(axes.get_first(), 2U);
+    EXPECT_TRUE(axes.contains(2U) && axes.contains(6U));
+    EXPECT_FALSE(axes.contains(0U) || axes.contains(7U) || axes.contains(99U));
+    EXPECT_EQ(axes.get_bits(), 0x44U);
+    AxisSet others;
+    others.insert(8U);
+    EXPECT_EQ(unite(axes, others).get_bits(), 0x144U);
+}
+
+TEST(ArmGuardsTest, OneToNineAxesAreCompared) {
+    verifies("SWR-ARM-009", Technique::kBoundaryValues);
+    constexpr std::array<double, kAxisMax> kOnes{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    constexpr AxisRange kRange{-1.0, 1.0};
+    constexpr std::array<AxisRange, kAxisMax> kAll{kRange, kRange, kRange, kRange, kRange,
+                                                   kRange, kRange, kRange, kRange};
+    for (std::size_t count = 1U; count <= kAxisMax; ++count) {
+        std::array<double, kAxisMax> values{};
+        values[count - 1U] = 1.5;
+        const AxisValues some{values.data(), count};
+        const AxisValues limits{kOnes.data(), count};
+        EXPECT_TRUE(is_only(calc_speed_violations(some, limits), count - 1U)) << count;
+        EXPECT_TRUE(is_only(calc_position_violations(some, {kAll.data(), count}), count - 1U)) << count;
+        EXPECT_TRUE(calc_jumps(some, limits, limits).is_empty()) << "1.5 and 0 are at most 1 from 1";
+        StandstillDetector detector{limits, Duration{0}};
+        EXPECT_FALSE(detector.step(some, Instant{1}));
+        values[count - 1U] = 1.0;
+        EXPECT_TRUE(detector.step(some, Instant{2})) << count;
+        EXPECT_TRUE(are_valid(limits) && are_valid(Span<const AxisRange>{kAll.data(), count}));
+    }
+}
+
+TEST(ArmGuardsTest, AnotherNumberOfAxesGoesToTheAssertionHandler) {
+    verifies("SWR-ARM-009", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr std::array<double, 10U> kMany{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    constexpr std::array<AxisRange, 10U> kManyRanges{};
+    const AxisValues six{kLimits.data(), 6U};
+
+    EXPECT_FALSE(are_valid(AxisValues{}) || are_valid(Span<const AxisRange>{}) || are_valid(kMany));
+    EXPECT_CHECK_FAILS(static_cast<void>(calc_jumps(kZero, six, kLimits)), "guards.cpp", 2);
+    EXPECT_CHECK_FAILS(static_cast<void>(calc_jumps(kZero, kZero, six)), "guards.cpp", 2);
+    EXPECT_CHECK_FAILS(static_cast<void>(calc_jumps(kMany, kMany, kMany)), "guards.cpp", 2);
+    EXPECT_CHECK_FAILS(static_cast<void>(calc_position_violations(six, kRanges)), "guards.cpp", 3);
+    EXPECT_CHECK_FAILS(static_cast<void>(calc_position_violations(kMany, kManyRanges)), "guards.cpp", 3);
+    EXPECT_CHECK_FAILS(static_cast<void>(calc_speed_violations(kMany, kMany)), "guards.cpp", 4);
+    EXPECT_CHECK_FAILS(static_cast<void>(calc_speed_violations(kZero, six)), "guards.cpp", 2);
+    EXPECT_CHECK_FAILS((StandstillDetector{kMany, Duration{0}}), "arm/guards.hpp", 1);
+    StandstillDetector detector{kLimits, Duration{0}};
+    EXPECT_CHECK_FAILS(static_cast<void>(detector.step(six, Instant{})), "guards.cpp", 2);
 }
 
 TEST(ArmGuardsTest, ChannelsThatAgreePass) {
@@ -250,7 +294,7 @@ TEST(StandstillDetectorTest, HoldOfZeroStandsInTheFirstSlowCycle) {
 TEST(StandstillDetectorTest, SingleJointAboveItsLimitBeginsTheTimeAnew) {
     verifies("SWR-ARM-008", Technique::kBoundaryValues, Polarity::kViolation);
 
-    for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
+    for (std::size_t joint = 0U; joint < kAxes; ++joint) {
         for (const double speed : {above(kLimits[joint]), below(-kLimits[joint]), kNan, kInf}) {
             StandstillDetector sut{kLimits, Duration{100}};
             ASSERT_FALSE(sut.step(kZero, Instant{0}));
@@ -282,13 +326,13 @@ TEST(StandstillDetectorTest, ClockThatRunsBackwardsBeginsTheTimeAnew) {
     EXPECT_TRUE(sut.step(kZero, Instant{250}));
 }
 
-TEST(JointSetTest, JointThatDoesNotExistGoesToTheAssertionHandler) {
+TEST(AxisSetTest, AxisThatDoesNotExistGoesToTheAssertionHandler) {
     verifies("SWR-ARM-002", Technique::kBoundaryValues, Polarity::kViolation);
-    JointSet joints;
+    AxisSet axes;
 
-    EXPECT_CHECK_FAILS(joints.insert(kArmJointCount), "joint_set.hpp", 1);
-    joints.insert(kArmJointCount - 1U);
-    EXPECT_EQ(joints.get_first(), kArmJointCount - 1U);
+    EXPECT_CHECK_FAILS(axes.insert(kAxisMax), "axis_set.hpp", 1);
+    axes.insert(kAxisMax - 1U);
+    EXPECT_EQ(axes.get_first(), kAxisMax - 1U);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ constexpr StopBounds kBounds{Duration{100}, Duration{200}};
 constexpr StopOutputs kOff{false, false, false, false};
 constexpr StopOutputs kStopping{true, true, true, false};
 constexpr StopOutputs kStoppingOnBrakes{true, false, true, false};
-constexpr StopOutputs kHolding{true, true, false, true};
-constexpr StopOutputs kHandingOver{true, false, false, true};
+constexpr StopOutputs kHolding{true, true, true, true};
+constexpr StopOutputs kHandingOver{true, false, true, true};
 
 class BrakeSequenceTest : public ::testing::Test {
   protected:

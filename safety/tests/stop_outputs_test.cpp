@@ -13,7 +13,7 @@ using namespace verification;
 constexpr StopOutputs kTorqueOff{false, false, false, false};
 constexpr StopOutputs kMoving{true, true, false, false};
 constexpr StopOutputs kStopping{true, true, true, false};
-constexpr StopOutputs kHolding{true, true, false, true};
+constexpr StopOutputs kHolding{true, true, true, true};
 
 TEST(StopOutputsTest, MovingStatesHaveTorqueAndTellTheControllerWhatIsWanted) {
     verifies("SWR-FSM-009");
@@ -59,6 +59,17 @@ TEST(StopOutputsTest, RowWithTorqueAgainstAClosedBrakeOrWithoutTorqueUnderAnOpen
             outputs[row] = wrong;
             EXPECT_FALSE(detail::do_torque_and_brakes_agree(outputs)) << row;
         }
+    }
+}
+
+TEST(StopOutputsTest, AHoldWithoutAStopIsRefused) {
+    verifies("SWR-FSM-009", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_TRUE(detail::is_hold_a_stop(kStopOutputs));
+
+    for (std::size_t row = 0U; row < kSafeStateCount; ++row) {
+        auto outputs = kStopOutputs;
+        outputs[row] = {true, true, false, true};
+        EXPECT_FALSE(detail::is_hold_a_stop(outputs)) << row;
     }
 }
 

@@ -38,7 +38,7 @@ def connection(source: int, out: str, sink: int, into: str, way: str, fresh: int
 
 
 TABLE: dict[str, object] = {
-    "schema": "mamori.table/3", "frame_ns": 10 * MS, "abort_policy": "spec_only",
+    "schema": "mamori.table/4", "frame_ns": 10 * MS, "abort_policy": "spec_only",
     "windows": [window("sense", 0, 0, 200 * US, MS, 150 * US, rate_hz=1000.0, slower_periods_ns=[2 * MS]),
                 window("plan", 1, 1200 * US, 7 * MS, 10 * MS, 6 * MS, partition="open"),
                 window("log", 1, 9 * MS, 500 * US, 10 * MS, 300 * US, kind="event_driven", events_per_cycle=3)],
@@ -47,7 +47,7 @@ TABLE: dict[str, object] = {
                     connection(1, "state", 3, "records", "queue"), connection(2, "path", 3, "path", "later_window"),
                     connection(1, "trend", 0, "hint", "next_frame")],
     "faults": [{"number": 0, "name": "Overspeed"}, {"number": 1, "name": "TrackingLost"}],
-    "reactions": [{"fault": 0, "reaction": "Ss1", "within_ns": 20 * MS}],
+    "reactions": [{"fault": 0, "reaction": "Ss1", "within_ns": 20 * MS, "modes": []}],
     "modes": [], "transitions": [], "parameters": [], "configuration_sets": [],
     "findings": [],
 }  # fmt: skip
@@ -305,7 +305,7 @@ def changed(key: str, value: object) -> str:
         ("[" * 100_000, "is no whole JSON document"),
         ("[]", "the table must be an object"),
         ("{}", "the table has no 'schema'"),
-        (changed("schema", "mamori.log/1"), "has the schema 'mamori.log/1', this command reads 'mamori.table/3'"),
+        (changed("schema", "mamori.log/1"), "has the schema 'mamori.log/1', this command reads 'mamori.table/4'"),
         (changed("frame_ns", True), "frame_ns must be an integer"),
         (changed("frame_ns", 10**30), "frame_ns must be an integer of 64 bits"),
         (changed("frame_ns", 0), "frame_ns is 0, must be positive, and no finding says that it is not"),
@@ -313,7 +313,7 @@ def changed(key: str, value: object) -> str:
         (changed("windows", [window("a", 0, 0, 1, 0, 1)] * 3), "windows[0].period_ns is 0, must be positive"),
         (changed("windows", [window("a", 0, 0, -1, 1, 1)] * 3), "windows[0].length_ns is -1, must be positive"),
         (changed("windows", [window("a", 0, 0, 1, 1, 0)] * 3), "windows[0].budget_ns is 0, must be positive"),
-        (changed("reactions", [{"fault": 0, "reaction": "Ss1", "within_ns": 0}]), "reactions[0].within_ns is 0, must be positive"),
+        (changed("reactions", [{"fault": 0, "reaction": "Ss1", "within_ns": 0, "modes": []}]), "reactions[0].within_ns is 0, must be positive"),
         (changed("windows", {}), "windows must be a list"),
         (changed("windows", [{"name": "a"}]), "windows[0] has no 'core'"),
         (changed("windows", [{**window("a", -1, 0, 1, 1, 1)}]), "windows[0].core must not be negative"),

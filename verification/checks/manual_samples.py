@@ -20,6 +20,7 @@ COMPILED = (
     "examples/tour/fsm_component.cpp",
     "examples/tour/introspection.cpp",
     "examples/tour/recorder.cpp",
+    "examples/tour/safety_module.cpp",
     "examples/tour/system_modes.cpp",
     "examples/tour/two_cores.cpp",
     "ports/conformance/tests/porting_page_test.cpp",

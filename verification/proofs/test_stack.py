@@ -89,7 +89,7 @@ def test_executive_and_components_are_among_the_entry_points(built: Built, toolc
     analysis = built.analyses[toolchain.name]
     names = {split_signature(analysis.graph.functions[entry.key].name)[0] for entry in analysis.entries}
 
-    assert {"mamori::Executive::start", "mamori::Executive::run_window", "safe_arm::SafetySupervisor::on_execute"} <= names
+    assert {"mamori::Executive::start", "mamori::Executive::run_window", "mamori::safety::SafetyCycle::on_execute"} <= names
     assert {"executive", "component", "program"} <= {entry.kind for entry in analysis.entries}
 
 

@@ -64,9 +64,10 @@ Status DriveEncoder::on_execute(ContextHandle context) noexcept {
     result.report.reaction = static_cast<std::uint8_t>(supervisor_.get_reaction());
     result.report.first_fault = supervisor_.get_first_fault();
     result.report.is_stopping = !result.outputs.torque_enable || stop.read().stop_requested;
+    const mamori::safety::ExecutionSupervisor& supervision = safety_.get_supervision();
     const bool has_expired =
-        supervision_.get_first_expired() != mamori::safety::ExecutionSupervisor::kNoComponent;
-    result.report.late_windows = supervision_.get_late_release().count + (has_expired ? 1U : 0U);
+        supervision.get_first_expired() != mamori::safety::ExecutionSupervisor::kNoComponent;
+    result.report.late_windows = supervision.get_late_release().count + (has_expired ? 1U : 0U);
     result.report.setpoint_rad = command.read().setpoint_rad;
     out.write(result);
     return Status::kOk;

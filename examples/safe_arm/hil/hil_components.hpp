@@ -98,15 +98,15 @@ class LinkWatchdog final : public mamori::safety::Watchdog {
 /// Makes the message to the plant of the outputs that the drive gate wrote.
 class DriveEncoder final : public mamori::Component {
   public:
-    /// All must have static storage. @param[in] supervisor, supervision of the same core, for the report.
+    /// All must have static storage. @param[in] supervisor, safety of the same table, for the report.
     constexpr DriveEncoder(const mamori::safety::ArmOutputs& outputs, const LinkWatchdog& watchdog,
                            const SafetySupervisor& supervisor,
-                           const mamori::safety::ExecutionSupervisor& supervision) noexcept
+                           const mamori::safety::SafetyState& safety) noexcept
         : Component("drive_encoder"),
           outputs_(outputs),
           watchdog_(watchdog),
           supervisor_(supervisor),
-          supervision_(supervision) {}
+          safety_(safety) {}
 
     mamori::InPort<StopCommand> stop{*this, "stop"};
     mamori::InPort<TorqueCommand> command{*this, "command"};
@@ -122,7 +122,7 @@ class DriveEncoder final : public mamori::Component {
     const mamori::safety::ArmOutputs& outputs_;
     const LinkWatchdog& watchdog_;
     const SafetySupervisor& supervisor_;
-    const mamori::safety::ExecutionSupervisor& supervision_;
+    const mamori::safety::SafetyState& safety_;
     std::atomic<bool> is_closed_{false};
 };
 

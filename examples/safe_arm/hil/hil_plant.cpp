@@ -59,7 +59,7 @@ void HilPlant::step() {
     facts.end = now + kFrame;
     facts.state = static_cast<mamori::safety::SafeState>(newest_.report.state);
     facts.first_fault = newest_.report.first_fault;
-    facts.reaction = static_cast<Reaction>(newest_.report.reaction);
+    facts.reaction = static_cast<mamori::safety::Reaction>(newest_.report.reaction);
     facts.is_watchdog_expired = watchdog_.has_expired();
     facts.setpoint_rad = newest_.report.setpoint_rad;
     facts.torque_enable = newest_.outputs.torque_enable;

@@ -4,12 +4,16 @@
 #include <array>
 
 #include "arm_assumptions.hpp"
-#include "mamori/kernel/system/system.hpp"
+#include "arm_safety.hpp"
 #include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/ports/virtual_time/machine.hpp"
-#include "mamori/safety/supervision/watch_check.hpp"
 
 namespace safe_arm::hil {
+
+using mamori::safety::alive;
+using mamori::safety::deadline;
+using mamori::safety::raises;
+using mamori::safety::supervise;
 
 mamori::safety::ArmInputs inputs;
 mamori::safety::ArmOutputs outputs;
@@ -22,7 +26,6 @@ static ArmChecks checks{watchdog_mirror};
 static constexpr std::array kAssumptions = make_arm_assumptions(checks);
 static_assert(mamori::safety::checks_all<kAssumptions, ArmAssumption::kCount>());
 static mamori::safety::AssumptionMonitor assumptions{kAssumptions};
-static DecisionFlow decision_flow;
 
 DeviceQueue device_queue;
 CommandQueue command_queue;
@@ -36,21 +39,26 @@ ArmReader reader{inputs};
 ReadingFilter filter;
 HangPoint hang_point;
 JointMonitor monitor;
-SafetySupervisor supervisor{supervision, command_receiver, watchdog, event_log, assumptions, decision_flow};
+SafetySupervisor supervisor{safety_state, event_log};
 ControllerView view;
 mamori::ports::lcm::LinkSender<StateMessage> state_sender{"state_sender", state_sink};
 mamori::ports::lcm::LinkReceiver<CommandMessage, CommandQueue> command_receiver{
     "command_receiver", command_queue, {kHilMaxDelta}};
 DriveGate gate{outputs};
-DriveEncoder encoder{outputs, watchdog, supervisor, supervision};
+DriveEncoder encoder{outputs, watchdog, supervisor, safety_state};
 mamori::ports::lcm::LinkSender<DriveMessage> drive_sender{"drive_sender", drive_sink};
 
 // In the file of its components: the compiler then compares their addresses under every sanitizer.
 /// As with the arm in one process, the gate uses the command of its frame, which the monitor checks in the
 /// next one. Controller and plant reply in the gaps before and after the window `act`; a later reply is used
 /// in the next frame.
-static constexpr auto kHilSystem = mamori::system(
-    mamori::frame(kFrame), mamori::trace_hash(),
+/// Budgets bound the times; here only silence counts, since a shared host can stretch a run.
+static constexpr auto kHilSystem = mamori::safety::system(
+    mamori::frame(kFrame), mamori::trace_hash(), make_arm_safety(hil::kLatenessMax),
+    supervise(reader, alive(), deadline(390_us)), supervise(filter, alive(), deadline(390_us)),
+    supervise(monitor, alive(), deadline(390_us)), supervise(supervisor, alive(), deadline(390_us)),
+    supervise(gate, alive(), deadline(390_us)), supervise(encoder, alive(), deadline(390_us)),
+    supervise(command_receiver, alive(), deadline(390_us), raises(ArmFault::kControllerSilent)),
     mamori::window(
         "protect", 0_us, 400_us, mamori::budget(390_us),
         mamori::run(device_receiver, device_image, reader, filter, hang_point, monitor, supervisor)),
@@ -64,6 +72,7 @@ static constexpr auto kHilSystem = mamori::system(
     mamori::connect(filter.out, supervisor.reading, mamori::any_age()),
     mamori::connect(command_receiver.out, monitor.command, mamori::any_age()),
     mamori::connect(gate.drive, monitor.drive, mamori::any_age()),
+    mamori::connect(gate.drive, supervisor.drive, mamori::any_age()),
     mamori::connect(monitor.state, supervisor.arm_state, mamori::any_age()),
     mamori::connect(monitor.state, view.state, mamori::any_age()),
     mamori::connect(supervisor.stop, view.stop, mamori::any_age()),
@@ -73,28 +82,10 @@ static constexpr auto kHilSystem = mamori::system(
     mamori::connect(supervisor.stop, encoder.stop, mamori::any_age()),
     mamori::connect(command_receiver.out, encoder.command, mamori::any_age()),
     mamori::connect(encoder.out, drive_sender.in, mamori::any_age()));
-MAMORI_CHECK(kHilSystem);
+MAMORI_SAFETY_CHECK(kHilSystem);
 
-static mamori::safety::ExecutionStorageFor<kHilSystem> supervision_storage;
-mamori::safety::ExecutionSupervisor supervision{supervision_storage, kLatenessMax};
-
-/// Budgets bound the times; here only silence counts, since a shared host can stretch a run.
-static constexpr mamori::safety::ComponentLimits kSafetyLimits{
-    kAliveLimits, {0_us, 390_us}, mamori::safety::SupervisionScope::kGlobal};
-static constexpr std::array kLimits = {
-    mamori::safety::watch(reader, kSafetyLimits),
-    mamori::safety::watch(filter, kSafetyLimits),
-    mamori::safety::watch(monitor, kSafetyLimits),
-    mamori::safety::watch(supervisor, kSafetyLimits),
-    mamori::safety::watch(gate, kSafetyLimits),
-    mamori::safety::watch(encoder, kSafetyLimits),
-    mamori::safety::watch(command_receiver,
-                          {kAliveLimits, {0_us, 390_us}, mamori::safety::SupervisionScope::kLocal})};
-static_assert(mamori::safety::is_watch_list_of<kHilSystem, kLimits>());
-
-mamori::Status watch_components() noexcept {
-    return supervision.watch(kLimits);
-}
+static mamori::safety::SafetyStorage<kHilSystem> safety_storage;
+mamori::safety::SafetyState safety_state{safety_storage, watchdog, &assumptions};
 
 using RealTimeMachine = mamori::ports::posix_rt::Machine<kHilSystem>;
 using VirtualMachine = mamori::ports::virtual_time::Machine<kHilSystem>;
@@ -112,7 +103,7 @@ static VirtualMachine& get_virtual_machine() {
 const mamori::ports::posix_rt::FrameClock& make_real_time(
     const mamori::ports::posix_rt::MachineOptions& options) {
     RealTimeMachine& machine = get_real_time_machine(options);
-    machine.get_executives().get(0U).set_observer(&supervision);
+    machine.get_executives().get(0U).set_observer(&safety_state.get_observer());
     return machine.get_clock();
 }
 
@@ -125,7 +116,7 @@ const mamori::ports::posix_rt::MachineReport& get_report() noexcept {
 }
 
 mamori::Status run_in_virtual_time(std::uint64_t frames, mamori::Devices& devices) noexcept {
-    get_virtual_machine().get_executives().get(0U).set_observer(&supervision);
+    get_virtual_machine().get_executives().get(0U).set_observer(&safety_state.get_observer());
     return get_virtual_machine().run(frames, devices);
 }
 

@@ -37,7 +37,7 @@ extern mamori::safety::ArmInputs inputs;
 extern mamori::safety::ArmOutputs outputs;
 extern mamori::EventLog event_log;
 extern mamori::ports::virtual_time::VirtualWatchdog watchdog_mirror;
-extern mamori::safety::ExecutionSupervisor supervision;
+extern mamori::safety::SafetyState safety_state;
 
 extern DeviceQueue device_queue;
 extern CommandQueue command_queue;
@@ -57,10 +57,6 @@ extern mamori::ports::lcm::LinkReceiver<CommandMessage, CommandQueue> command_re
 extern DriveGate gate;
 extern DriveEncoder encoder;
 extern mamori::ports::lcm::LinkSender<DriveMessage> drive_sender;
-
-/// Puts the components under supervision, the controller's link in local scope. @return kOk;
-/// kPreconditionNotMet (done before).
-mamori::Status watch_components() noexcept;
 
 /// Makes the system in real time, under supervision. One per process. @return its time line.
 const mamori::ports::posix_rt::FrameClock& make_real_time(

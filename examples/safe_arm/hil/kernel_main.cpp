@@ -128,7 +128,7 @@ nlohmann::ordered_json make_report(const Watcher& watcher, Status status) {
             {"overran", report.openings.overran},
             {"missed", report.openings.missed},
             {"worst_lateness_s", to_seconds(report.openings.worst_lateness)},
-            {"late_releases", hil::supervision.get_late_release().count},
+            {"late_releases", hil::safety_state.get_supervision().get_late_release().count},
             {"final_state", get_name(hil::supervisor.get_state())},
             {"first_fault", first < kArmFaultCount ? nlohmann::ordered_json(kArmFaultNames[first])
                                                    : nlohmann::ordered_json(nullptr)},
@@ -150,7 +150,6 @@ int replay(const HilOptions& options, const mamori::sim::ArmModel& model) {
         return fail_hil(kName, kHilExitUsage, reason);
     }
     if (hil::reader.configure(get_encoder_scale(model)) != Status::kOk ||
-        hil::watch_components() != Status::kOk ||
         hil::run_in_virtual_time(options.run.frames, devices) != Status::kOk) {
         return fail_hil(kName, kHilExitFailed, "the system does not start");
     }
@@ -204,8 +203,7 @@ int main(int argc, char** argv) {
     static const std::array<int, 1U> processors{find_last_processor()};
     machine_options.processors = processors;
     static Watcher watcher{hil::make_real_time(machine_options), options.run.frames};
-    if (hil::reader.configure(get_encoder_scale(*loaded.model)) != Status::kOk ||
-        hil::watch_components() != Status::kOk) {
+    if (hil::reader.configure(get_encoder_scale(*loaded.model)) != Status::kOk) {
         return fail_hil(kName, kHilExitFailed, "the system does not start");
     }
     const Status status = hil::run_in_real_time(options.run.frames, watcher);

@@ -45,8 +45,7 @@ int main(int argc, char** argv) {
     HilPlant hil_plant{plant, fault, record};
     static HilController controller{track, law, motion_start};
     VirtualHil devices{hil_plant, controller, hil::get_virtual_host(), fault, options.error};
-    if (hil::reader.configure(get_encoder_scale(*loaded.model)) != Status::kOk ||
-        hil::watch_components() != Status::kOk) {
+    if (hil::reader.configure(get_encoder_scale(*loaded.model)) != Status::kOk) {
         return fail_hil(kName, kHilExitFailed, "the system does not start");
     }
     const Status status = hil::run_in_virtual_time(options.run.frames, devices);

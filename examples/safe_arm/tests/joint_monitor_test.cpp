@@ -184,7 +184,7 @@ TEST_F(JointMonitorTest, FrozenChannelNeverTakesTheTrustOfTheSoundOne) {
             step();
             const double step_rad = kSafeSpeedRadS[joint] * kFrameS * share / 20.0;
             std::uint32_t differing_frames = 0U;
-            while (differing_frames < kConfirmFrames[to_index(ArmFault::kEncoderDiscrepancy)]) {
+            while (differing_frames < kDiscrepancyFrames) {
                 reading_.position_b_rad[joint] += step_rad;
                 const std::uint32_t faults = step().faults;
                 ASSERT_EQ(faults & to_bit(ArmFault::kEncoderImplausible), 0U) << joint << ' ' << share;

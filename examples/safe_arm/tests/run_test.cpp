@@ -14,6 +14,7 @@
 #include <sstream>
 #include <vector>
 
+#include "arm_faults.hpp"
 #include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "run_recorder.hpp"
@@ -235,7 +236,7 @@ TEST_F(RunTest, KilledRunLeavesItsEventsInTheRecorder) {
     EXPECT_FALSE(fs::exists(folder_ / "out" / "run.json"));
     const std::vector<mamori::FlightRecord> records = read_recorder();
     ASSERT_GE(records.size(), before);
-    EXPECT_EQ(records[0].code, static_cast<std::uint16_t>(ArmEvent::kStateEntered));
+    EXPECT_EQ(records[0].code, static_cast<std::uint16_t>(mamori::safety::CycleEvent::kStateEntered));
     EXPECT_EQ(records[0].argument, static_cast<std::int64_t>(mamori::safety::SafeState::kStandby));
 }
 

@@ -50,9 +50,9 @@ TEST(ArmReactionsTest, EachFaultAloneLeadsToItsRow) {
         FaultRegister faults{storage};
         faults.report(static_cast<FaultIndex>(i), true, mamori::Instant{});
 
-        const mamori::safety::ReactionDemand demand = calc_reaction(kArmReactions, faults);
+        const mamori::safety::ReactionDemand demand = calc_reaction(executive.get_view().reactions, faults);
         EXPECT_EQ(demand.fault, i);
-        EXPECT_GE(demand.reaction, Reaction::kSs1) << kArmFaultNames[i];
+        EXPECT_GE(demand.reaction, mamori::safety::Reaction::kSs1) << kArmFaultNames[i];
         EXPECT_EQ(demand.within, 2_ms);
     }
 }
@@ -62,7 +62,8 @@ TEST(ArmReactionsTest, NoFaultDemandsNothing) {
     std::array<FaultRecord, kArmFaultCount> storage{};
     FaultRegister faults{storage};
 
-    EXPECT_EQ(calc_reaction(kArmReactions, faults).reaction, Reaction::kNone);
+    EXPECT_EQ(calc_reaction(executive.get_view().reactions, faults).reaction,
+              mamori::safety::Reaction::kNone);
 }
 
 }  // namespace

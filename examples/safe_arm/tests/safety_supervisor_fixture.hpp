@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 
+#include "arm_safety.hpp"
 #include "feed.hpp"
 #include "safety_supervisor.hpp"
 
@@ -23,8 +24,13 @@ class Supervised final : public mamori::Component {
 };
 Supervised g_other{"other"};
 Supervised g_controller{"controller"};
-constexpr auto kSupervised = mamori::system(
-    mamori::frame(kFrame),
+constexpr auto kSupervised = mamori::safety::system(
+    mamori::frame(kFrame), make_arm_safety(kLatenessMax),
+    mamori::safety::supervise(g_other, mamori::safety::alive(),
+                              mamori::safety::deadline(kSafetyComponentMax)),
+    mamori::safety::supervise(g_controller, mamori::safety::alive(),
+                              mamori::safety::deadline(kSafetyComponentMax),
+                              mamori::safety::raises(ArmFault::kControllerSilent)),
     mamori::window("all", 0_us, kFrame, mamori::budget(kFrame), mamori::run(g_other, g_controller)));
 constexpr std::size_t kOther = mamori::index_of(kSupervised, g_other);
 constexpr std::size_t kController = mamori::index_of(kSupervised, g_controller);
@@ -56,13 +62,7 @@ static_assert(mamori::safety::checks_all<kAssumptions, Assumption::kCount>());
 class SafetySupervisorFixture : public ::testing::Test {
   protected:
     void SetUp() override {
-        using mamori::safety::SupervisionScope;
         g_check.answer = mamori::safety::SelfTestStatus::kPassed;
-        const mamori::safety::DeadlineLimits deadline{mamori::Duration{0}, kSafetyComponentMax};
-        ASSERT_EQ(supervision_.watch(g_other, {kAliveLimits, deadline, SupervisionScope::kGlobal}),
-                  mamori::Status::kOk);
-        ASSERT_EQ(supervision_.watch(g_controller, {kAliveLimits, deadline, SupervisionScope::kLocal}),
-                  mamori::Status::kOk);
         ASSERT_EQ(sut_.initialize(), mamori::Status::kOk);
         reading_.power_good = true;
         reading_.brakes_closed = true;
@@ -86,10 +86,15 @@ class SafetySupervisorFixture : public ::testing::Test {
             feed(sut_.arm_state, state_);
         }
         EXPECT_EQ(sut_.on_execute({0, now_}), mamori::Status::kOk);
+        // The gate applies the command of this frame; the next cycle reads it.
+        const StopCommand given = take(sut_.stop);
+        if (is_gate_running_) {
+            feed(sut_.drive, DriveCommand{{}, given.torque_enable, given.brake_release});
+        }
         sut_.reading.mark_read();
         sut_.arm_state.mark_read();
         now_ = now_ + kFrame;
-        return take(sut_.stop);
+        return given;
     }
     StopCommand step_until(mamori::safety::SafeState wanted, int frames_max) {
         StopCommand command{};
@@ -108,14 +113,14 @@ class SafetySupervisorFixture : public ::testing::Test {
         return command;
     }
 
-    mamori::safety::ExecutionStorageFor<kSupervised> storage_;
-    mamori::safety::ExecutionSupervisor supervision_{storage_, kLatenessMax};
+    mamori::safety::SafetyStorage<kSupervised> storage_;
     std::array<mamori::Event, 32U> events_{};
     mamori::EventLog log_{events_};
     SpyWatchdog watchdog_;
     mamori::safety::AssumptionMonitor assumptions_{kAssumptions};
-    DecisionFlow flow_;
-    SafetySupervisor sut_{supervision_, g_controller, watchdog_, log_, assumptions_, flow_};
+    mamori::safety::SafetyState safety_{storage_, watchdog_, &assumptions_};
+    mamori::safety::ExecutionSupervisor& supervision_ = safety_.get_observer();
+    SafetySupervisor sut_{safety_, log_};
     JointReading reading_{};
     JointState state_{};
     mamori::Instant now_{};
@@ -123,6 +128,7 @@ class SafetySupervisorFixture : public ::testing::Test {
     bool is_monitor_running_{true};
     bool is_other_running_{true};
     bool is_controller_running_{true};
+    bool is_gate_running_{true};
 };
 
 }  // namespace

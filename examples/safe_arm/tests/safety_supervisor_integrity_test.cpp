@@ -55,7 +55,7 @@ TEST_F(SupervisorIntegrityTest, AssumptionThatIsLostWhileTheArmMovesTakesTorqueA
     step();
     std::size_t named = 0U;
     for (std::size_t i = 0U; i < log_.size(); ++i) {
-        if (log_.get(i).code == static_cast<std::uint16_t>(ArmEvent::kAssumptionFailed)) {
+        if (log_.get(i).code == static_cast<std::uint16_t>(mamori::safety::CycleEvent::kAssumptionFailed)) {
             EXPECT_EQ(log_.get(i).argument, static_cast<std::int64_t>(Assumption::kChecked));
             ++named;
         }
@@ -71,25 +71,28 @@ TEST_F(SupervisorIntegrityTest, WatchdogIsServedWhileEachFrameBeginsJudgesAndCom
         step();
         ASSERT_EQ(watchdog_.services, i);
     }
-    EXPECT_EQ(flow_.supervisor.get_status(), mamori::safety::SupervisionStatus::kOk);
+    EXPECT_EQ(safety_.get_flow().supervisor.get_status(), mamori::safety::SupervisionStatus::kOk);
 }
 
 TEST_F(SupervisorIntegrityTest, WatchdogIsNotServedOnceAStepCameOutOfItsOrder) {
     verifies("SWR-SAF-022", Technique::kFaultInjection, Polarity::kViolation);
-    for (const FlowPoint point : {FlowPoint::kBegun, FlowPoint::kJudged, FlowPoint::kCommanded}) {
+    for (const mamori::safety::FlowPoint point :
+         {mamori::safety::FlowPoint::kBegun, mamori::safety::FlowPoint::kJudged,
+          mamori::safety::FlowPoint::kCommanded}) {
         SpyWatchdog watchdog;
-        DecisionFlow flow;
         mamori::safety::AssumptionMonitor assumptions{kAssumptions};
-        SafetySupervisor sut{supervision_, g_controller, watchdog, log_, assumptions, flow};
+        mamori::safety::SafetyStorage<kSupervised> storage;
+        mamori::safety::SafetyState safety{storage, watchdog, &assumptions};
+        SafetySupervisor sut{safety, log_};
         ASSERT_EQ(sut.initialize(), Status::kOk);
         ASSERT_EQ(sut.on_execute({0, now_}), Status::kOk);
         ASSERT_EQ(watchdog.services, 1) << static_cast<int>(point);
 
-        flow.report(point, now_ + 1_us);  // control flow that came to a step from nowhere
+        safety.get_flow().report(point, now_ + 1_us);  // control flow that came to a step from nowhere
         for (int i = 0; i < 3; ++i) {
             now_ = now_ + kFrame;
-            supervision_.get_records()[kOther].note_run(now_, now_ + 10_us);
-            supervision_.get_records()[kController].note_run(now_, now_ + 10_us);
+            safety.get_observer().get_records()[kOther].note_run(now_, now_ + 10_us);
+            safety.get_observer().get_records()[kController].note_run(now_, now_ + 10_us);
             ASSERT_EQ(sut.on_execute({0, now_}), Status::kOk);
         }
         EXPECT_EQ(watchdog.services, 1) << static_cast<int>(point) << ": once is for good";
@@ -117,17 +120,17 @@ TEST_F(SupervisorIntegrityTest, EachFlippedBitOfTheTimeOfAContradictionLocksOut)
     std::array<unsigned char, 16U> forms{};
     std::memset(forms.data() + 8U, 0xFF, 8U);
     operate();
-    auto* const image = reinterpret_cast<unsigned char*>(&sut_);  // NOLINT: memory that changes by itself
-    std::size_t place = sizeof(sut_);
+    auto* const image = reinterpret_cast<unsigned char*>(&safety_);  // NOLINT: memory that changes by itself
+    std::size_t place = sizeof(safety_);
     std::size_t places = 0U;
-    for (std::size_t i = 0U; i + forms.size() <= sizeof(sut_); i += alignof(Duration)) {
+    for (std::size_t i = 0U; i + forms.size() <= sizeof(safety_); i += alignof(Duration)) {
         if (std::memcmp(image + i, forms.data(), forms.size()) == 0) {
             place = i;
             ++places;
         }
     }
     ASSERT_EQ(places, 1U);
-    std::array<unsigned char, sizeof(SafetySupervisor)> sound{};
+    std::array<unsigned char, sizeof(mamori::safety::SafetyState)> sound{};
     std::memcpy(sound.data(), image, sound.size());
 
     for (std::size_t bit = 0U; bit < forms.size() * 8U; ++bit) {

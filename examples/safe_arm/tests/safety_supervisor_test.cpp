@@ -44,7 +44,7 @@ TEST_F(SafetySupervisorTest, SelfTestNeedsItsGoodFramesInARow) {
 
 TEST_F(SafetySupervisorTest, SelfTestThatNeverPassesLocksOut) {
     verifies("SWR-SAF-014", Technique::kFaultInjection, Polarity::kViolation);
-    reading_.brakes_closed = false;
+    watchdog_.answer = Status::kError;
 
     step_until(SafeState::kLockedOut, 600);
     EXPECT_EQ(sut_.get_state(), SafeState::kLockedOut);
@@ -95,7 +95,7 @@ TEST_F(SafetySupervisorTest, FaultStopsTorqueInTheSameFrameAndStaysLatched) {
     state_.faults = 0U;
     EXPECT_EQ(step().state, SafeState::kSafe);
     EXPECT_EQ(sut_.get_first_fault(), to_index(ArmFault::kPowerLost));
-    EXPECT_EQ(sut_.get_reaction(), Reaction::kSto);
+    EXPECT_EQ(sut_.get_reaction(), mamori::safety::Reaction::kSto);
 }
 
 TEST_F(SafetySupervisorTest, FaultFreeOperationGoesOn) {
@@ -105,7 +105,7 @@ TEST_F(SafetySupervisorTest, FaultFreeOperationGoesOn) {
     for (int i = 0; i < 100; ++i) {
         EXPECT_EQ(step().state, SafeState::kOperational);
     }
-    EXPECT_EQ(sut_.get_reaction(), Reaction::kNone);
+    EXPECT_EQ(sut_.get_reaction(), mamori::safety::Reaction::kNone);
 }
 
 TEST_F(SafetySupervisorTest, FaultIsLatchedAfterItsConfirmationAndNotBefore) {
@@ -134,8 +134,21 @@ TEST_F(SafetySupervisorTest, ControlledStopEndsSafeWhenItIsConfirmed) {
     EXPECT_TRUE(command.stop_requested);
 
     state_.is_standing = true;
+    EXPECT_EQ(step().state, SafeState::kProtectiveStopSs1) << "the brakes close";
     reading_.brakes_closed = true;
     EXPECT_EQ(step().state, SafeState::kSafe);
+}
+
+TEST_F(SafetySupervisorTest, ContactsStuckAtClosedConfirmNoStopBeforeTheClosingTime) {
+    verifies("SWR-SAF-018", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    reading_.brakes_closed = true;
+    state_.faults = to_bit(ArmFault::kEncoderImplausible);
+    for (std::int64_t i = 0; i <= kBrakes.closes_within.ns / kFrame.ns; ++i) {
+        ASSERT_TRUE(step().torque_enable) << i;
+    }
+
+    EXPECT_FALSE(step().torque_enable);
 }
 
 TEST_F(SafetySupervisorTest, BrakesCloseUnderTorqueBeforeItIsSwitchedOff) {
@@ -157,12 +170,11 @@ TEST_F(SafetySupervisorTest, BrakesCloseUnderTorqueBeforeItIsSwitchedOff) {
     EXPECT_FALSE(step().torque_enable);
 }
 
-TEST_F(SafetySupervisorTest, BrakesThatNeverReportEndInTorqueOffAtTheBound) {
+TEST_F(SafetySupervisorTest, BrakesThatNeverReportEndInTorqueOffAfterTheClosingTime) {
     verifies("SWR-SAF-018", Technique::kFaultInjection, Polarity::kViolation);
     operate();
     state_.faults = to_bit(ArmFault::kEncoderImplausible);
-    const auto bound = kStopBounds.ss1_within.ns / kFrame.ns;
-    for (std::int64_t i = 0; i < bound; ++i) {
+    for (std::int64_t i = 0; i <= kBrakes.closes_within.ns / kFrame.ns + 1; ++i) {
         ASSERT_TRUE(step().torque_enable) << i;
     }
 

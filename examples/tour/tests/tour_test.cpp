@@ -74,6 +74,11 @@ TEST(TourTest, SystemModesAreSwitchedAsThePageShows) {
     expect_output_of_page("system_modes");
 }
 
+TEST(TourTest, SafetyModuleStopsTheRobotAsThePageShows) {
+    verifies("SWR-CYC-003", Technique::kBackToBack);
+    expect_output_of_page("safety_module");
+}
+
 TEST(TourTest, EventLogKeepsTheNewestRecordsAsThePageShows) {
     verifies("SWR-KRN-019", Technique::kBackToBack);
     expect_output_of_page("event_log");

@@ -81,3 +81,47 @@ constexpr auto kSystem = mamori::system(
     mamori::react(Fault::kTrackingLost, kSecond, mamori::within(1_ms)));
 MAMORI_CHECK(kSystem);
 }  // namespace reactions_of_two_enumerations
+
+// A declared fault has no reaction in one of the modes.
+namespace fault_without_reaction_in_a_mode {
+enum class Mode { kWork, kHalt };
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms), mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
+    mamori::system_mode("work", mamori::runs(g_producer)),
+    mamori::safe_mode("halt", mamori::runs(g_producer)), mamori::faults<Fault::kOverspeed>(),
+#ifndef MAMORI_BREAK_FAULT_WITHOUT_REACTION_IN_A_MODE
+    mamori::react(Fault::kOverspeed, Reaction::kSto, mamori::within(1_ms), mamori::in_modes<Mode::kHalt>()),
+#endif
+    mamori::react(Fault::kOverspeed, Reaction::kSs1, mamori::within(1_ms), mamori::in_modes<Mode::kWork>()));
+MAMORI_CHECK(kSystem);
+}  // namespace fault_without_reaction_in_a_mode
+
+// A declared fault has two reactions in one of the modes.
+namespace fault_with_two_reactions_in_a_mode {
+enum class Mode { kWork, kHalt };
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms), mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
+    mamori::system_mode("work", mamori::runs(g_producer)),
+    mamori::safe_mode("halt", mamori::runs(g_producer)), mamori::faults<Fault::kOverspeed>(),
+#ifdef MAMORI_BREAK_FAULT_WITH_TWO_REACTIONS_IN_A_MODE
+    mamori::react(Fault::kOverspeed, Reaction::kSto, mamori::within(1_ms), mamori::in_modes<Mode::kHalt>()),
+#endif
+    mamori::react(Fault::kOverspeed, Reaction::kSs1, mamori::within(1_ms)));
+MAMORI_CHECK(kSystem);
+}  // namespace fault_with_two_reactions_in_a_mode
+
+// A reaction names a mode that the table does not have.
+namespace reaction_in_unknown_mode {
+enum class Mode { kWork, kHalt, kTeach };
+#ifdef MAMORI_BREAK_REACTION_IN_UNKNOWN_MODE
+constexpr auto kModes = mamori::in_modes<Mode::kWork, Mode::kHalt, Mode::kTeach>();
+#else
+constexpr auto kModes = mamori::in_modes<Mode::kWork, Mode::kHalt>();
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms), mamori::window("a", 0_us, 100_us, mamori::budget(50_us), mamori::run(g_producer)),
+    mamori::system_mode("work", mamori::runs(g_producer)),
+    mamori::safe_mode("halt", mamori::runs(g_producer)), mamori::faults<Fault::kOverspeed>(),
+    mamori::react(Fault::kOverspeed, Reaction::kSs1, mamori::within(1_ms), kModes));
+MAMORI_CHECK(kSystem);
+}  // namespace reaction_in_unknown_mode

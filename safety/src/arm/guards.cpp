@@ -4,61 +4,59 @@
 namespace mamori::safety {
 namespace {
 
-/// Joints at which two values are further apart than their limit.
-JointSet calc_far_apart(const JointVector& a, const JointVector& b, const JointVector& limits) noexcept {
-    JointSet joints;
-    for (std::size_t i = 0U; i < kArmJointCount; ++i) {
+/// Axes at which two values are further apart than their limit.
+AxisSet calc_far_apart(AxisValues a, AxisValues b, AxisValues limits) noexcept {
+    MAMORI_REQUIRE(2, a.size() <= kAxisMax && a.size() == b.size() && a.size() == limits.size());
+    AxisSet axes;
+    for (std::size_t i = 0U; i < a.size(); ++i) {
         if (!is_within(a[i] - b[i], limits[i])) {
-            joints.insert(i);
+            axes.insert(i);
         }
     }
-    return joints;
+    return axes;
 }
 
 }  // namespace
 
-JointSet calc_position_violations(const JointVector& position_rad, const JointRanges& ranges) noexcept {
-    JointSet joints;
+AxisSet calc_position_violations(AxisValues position, Span<const AxisRange> ranges) noexcept {
+    MAMORI_REQUIRE(3, position.size() <= kAxisMax && position.size() == ranges.size());
+    AxisSet axes;
     constexpr double kLargest = std::numeric_limits<double>::max();
-    for (std::size_t i = 0U; i < kArmJointCount; ++i) {
-        const double position = position_rad[i];
-        const JointRange& range = ranges[i];
-        const bool is_finite =
-            is_within(position, kLargest) && range.min_rad >= -kLargest && range.max_rad <= kLargest;
-        if (!(is_finite && position >= range.min_rad && position <= range.max_rad)) {
-            joints.insert(i);
+    for (std::size_t i = 0U; i < position.size(); ++i) {
+        const double value = position[i];
+        const AxisRange& range = ranges[i];
+        const bool is_finite = is_within(value, kLargest) && range.min >= -kLargest && range.max <= kLargest;
+        if (!(is_finite && value >= range.min && value <= range.max)) {
+            axes.insert(i);
         }
     }
-    return joints;
+    return axes;
 }
 
-JointSet calc_speed_violations(const JointVector& velocity_rad_s,
-                               const JointVector& speed_rad_s_max) noexcept {
-    return calc_far_apart(velocity_rad_s, JointVector{}, speed_rad_s_max);
+AxisSet calc_speed_violations(AxisValues velocity, AxisValues speed_max) noexcept {
+    constexpr std::array<double, kAxisMax> kZero{};
+    MAMORI_REQUIRE(4, velocity.size() <= kAxisMax);
+    return calc_far_apart(velocity, {kZero.data(), velocity.size()}, speed_max);
 }
 
-JointSet calc_discrepancies(const JointVector& channel_a_rad, const JointVector& channel_b_rad,
-                            const JointVector& discrepancy_rad_max) noexcept {
-    return calc_far_apart(channel_a_rad, channel_b_rad, discrepancy_rad_max);
+AxisSet calc_discrepancies(AxisValues channel_a, AxisValues channel_b, AxisValues discrepancy_max) noexcept {
+    return calc_far_apart(channel_a, channel_b, discrepancy_max);
 }
 
-JointSet calc_jumps(const JointVector& position_rad, const JointVector& previous_rad,
-                    const JointVector& jump_rad_max) noexcept {
-    return calc_far_apart(position_rad, previous_rad, jump_rad_max);
+AxisSet calc_jumps(AxisValues position, AxisValues previous, AxisValues jump_max) noexcept {
+    return calc_far_apart(position, previous, jump_max);
 }
 
-JointSet calc_following_errors(const JointVector& setpoint_rad, const JointVector& measured_rad,
-                               const JointVector& error_rad_max) noexcept {
-    return calc_far_apart(setpoint_rad, measured_rad, error_rad_max);
+AxisSet calc_following_errors(AxisValues setpoint, AxisValues measured, AxisValues error_max) noexcept {
+    return calc_far_apart(setpoint, measured, error_max);
 }
 
-JointSet calc_torque_deviations(const JointVector& commanded_nm, const JointVector& measured_nm,
-                                const JointVector& deviation_nm_max) noexcept {
-    return calc_far_apart(commanded_nm, measured_nm, deviation_nm_max);
+AxisSet calc_torque_deviations(AxisValues commanded, AxisValues measured, AxisValues deviation_max) noexcept {
+    return calc_far_apart(commanded, measured, deviation_max);
 }
 
-bool StandstillDetector::step(const JointVector& velocity_rad_s, Instant now) noexcept {
-    const bool is_slow = calc_speed_violations(velocity_rad_s, speed_rad_s_max_).is_empty();
+bool StandstillDetector::step(AxisValues velocity, Instant now) noexcept {
+    const bool is_slow = calc_speed_violations(velocity, {speed_max_.data(), axis_count_}).is_empty();
     const bool has_begun = is_slow && (!is_slow_ || now < stepped_at_);
     if (has_begun) {
         slow_since_ = now;

@@ -45,6 +45,7 @@ StopOutputs BrakeSequence::apply(SafeState state, Instant now) noexcept {
     is_handing_over_ = state == SafeState::kStandby && was_held && is_before_bite;
     if (is_handing_over_) {
         outputs.torque_enable = true;
+        outputs.stop_requested = true;
         outputs.hold_requested = true;
     }
     before_ = state;

@@ -62,7 +62,7 @@ TEST(CheckpointLogTest, LostReportExpires) {
 }
 
 TEST(CheckpointLogTest, LaterLossDoesNotReplaceTheFirstViolation) {
-    verifies("SWR-SUP-025", Technique::kStateTransition, Polarity::kViolation);
+    verifies("SWR-SUP-005", Technique::kStateTransition, Polarity::kViolation);
     Rig rig;
     rig.report_as(Entity::kLeft, Point::kEnd, 0);
     ASSERT_EQ(rig.step(0), SupervisionStatus::kExpired);

@@ -15,7 +15,7 @@ from mamori_trace.base.errors import InputError
 from mamori_trace.base.json_node import HOW_TO_FIX, JsonNode
 from mamori_trace.base.text_file import read_text
 
-SCHEMA = "mamori.table/3"
+SCHEMA = "mamori.table/4"
 MAX_BYTES = 50_000_000
 WAYS = ("same_window", "later_window", "next_frame", "crossing", "queue")
 KINDS = ("periodic", "event_driven", "triggered", "invalid")
@@ -79,6 +79,8 @@ class Reaction:
     fault: int
     reaction: str
     within_ns: int
+    modes: tuple[int, ...]
+    """Empty in a system without modes."""
 
 
 @dataclass(frozen=True)
@@ -145,8 +147,7 @@ def read_table(path: Path) -> Table:
         components=tuple(_read_component(node, len(windows)) for node in components),
         connections=tuple(_read_connection(node, len(components), len(modes)) for node in root.at("connections").items()),
         faults={node.at("number").count(): node.at("name").text() for node in root.at("faults").items()},
-        reactions=tuple(Reaction(node.at("fault").count(), node.at("reaction").text(), node.at("within_ns").whole())
-                        for node in root.at("reactions").items()),
+        reactions=tuple(_read_reaction(node, len(modes)) for node in root.at("reactions").items()),
         modes=tuple(read_mode(node, len(components), len(sets)) for node in modes),
         transitions=tuple(read_transition(node, len(modes)) for node in root.at("transitions").items()),
         parameters=tuple(read_parameter(node, len(components)) for node in parameters),
@@ -194,6 +195,11 @@ def _read_component(node: JsonNode, window_count: int) -> Component:
              for port in node.at("ports").items())  # fmt: skip
     return Component(node.at("name").text(), node.at("window").index_or_none(window_count),
                      node.at("worst_case_ns").whole_or_none(), tuple(ports))  # fmt: skip
+
+
+def _read_reaction(node: JsonNode, mode_count: int) -> Reaction:
+    return Reaction(node.at("fault").count(), node.at("reaction").text(), node.at("within_ns").whole(),
+                    tuple(mode.index(mode_count) for mode in node.at("modes").items()))  # fmt: skip
 
 
 def _read_connection(node: JsonNode, component_count: int, mode_count: int) -> Connection:

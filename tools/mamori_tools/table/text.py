@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from mamori_tools.table.document import Connection, Table
+from mamori_tools.table.document import Connection, Reaction, Table
 from mamori_tools.table.mode_text import make_matrices, make_parameters, make_sets, make_title, make_transitions
 from mamori_tools.table.words import WAY_TEXTS, format_kind, format_modes, format_rate, format_time
 
@@ -37,7 +37,7 @@ def make_lines(table: Table) -> Iterator[Line]:
     if table.faults or table.reactions:
         yield PLAIN, PLAIN
         yield "faults and reactions", HEADING
-        yield from _align([("fault", "reaction", "within"), *_reaction_cells(table)])
+        yield from _align([("fault", "reaction", "within", *(["holds in"] if table.modes else [])), *_reaction_cells(table)])
     yield PLAIN, PLAIN
     yield from _findings(table)
 
@@ -91,12 +91,17 @@ def _reaction_cells(table: Table) -> Iterator[tuple[str, ...]]:
     for number, name in table.faults.items():
         rows = [row for row in table.reactions if row.fault == number]
         for row in rows:
-            yield _plain(name), _plain(row.reaction), format_time(row.within_ns)
+            yield _plain(name), *_answer_cells(table, row)
         if not rows:
-            yield _plain(name), "none", ""
+            yield (_plain(name), "none", "", "")[: 4 if table.modes else 3]
     for row in table.reactions:
         if row.fault not in table.faults:
-            yield f"{row.fault}, not declared", _plain(row.reaction), format_time(row.within_ns)
+            yield f"{row.fault}, not declared", *_answer_cells(table, row)
+
+
+def _answer_cells(table: Table, row: Reaction) -> tuple[str, ...]:
+    modes = (format_modes(table, row.modes) or "all modes",) if table.modes else ()
+    return _plain(row.reaction), format_time(row.within_ns), *modes
 
 
 def _findings(table: Table) -> Iterator[Line]:

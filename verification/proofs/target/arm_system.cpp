@@ -3,17 +3,15 @@
 #include "arm_system.hpp"
 
 #include "arm_assumptions.hpp"
-#include "arm_limits.hpp"
 #include "arm_reader.hpp"
+#include "arm_safety.hpp"
 #include "drive_gate.hpp"
 #include "hold_controller.hpp"
 #include "joint_monitor.hpp"
 #include "mamori/kernel/record/event_log.hpp"
 #include "mamori/kernel/run/introspection.hpp"
-#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/virtual_time/simulated_channel.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
-#include "mamori/safety/supervision/watch_check.hpp"
 #include "safety_supervisor.hpp"
 
 namespace proof {
@@ -23,6 +21,10 @@ using namespace mamori::literals;  // NOLINT: units of the table
 using mamori::Duration;
 using mamori::Instant;
 using mamori::Status;
+using mamori::safety::alive;
+using mamori::safety::deadline;
+using mamori::safety::raises;
+using mamori::safety::supervise;
 namespace virtual_time = mamori::ports::virtual_time;
 
 constexpr double kCountsPerRad = 100000.0;
@@ -41,20 +43,18 @@ mamori::safety::ArmOutputs outputs;
 std::array<mamori::Event, 256U> event_storage;
 mamori::EventLog event_log{event_storage};
 virtual_time::VirtualWatchdog watchdog{safe_arm::kWatchdogTimeout};
-extern mamori::safety::ExecutionSupervisor supervision;
+extern mamori::safety::SafetyState safety_state;
 Facts facts;
 
 safe_arm::ArmChecks checks{watchdog};
 constexpr std::array kAssumptions = safe_arm::make_arm_assumptions(checks);
 static_assert(mamori::safety::checks_all<kAssumptions, safe_arm::ArmAssumption::kCount>());
 mamori::safety::AssumptionMonitor assumptions{kAssumptions};
-safe_arm::DecisionFlow decision_flow;
 
 safe_arm::ArmReader reader{inputs};
 safe_arm::JointMonitor monitor;
 HoldController controller;
-safe_arm::SafetySupervisor supervisor{supervision, controller,  watchdog,
-                                      event_log,   assumptions, decision_flow};
+safe_arm::SafetySupervisor supervisor{safety_state, event_log};
 virtual_time::SimulatedChannel<safe_arm::TorqueCommand, 4U> channel{"channel"};
 safe_arm::DriveGate gate{outputs};
 
@@ -63,8 +63,15 @@ mamori::Crossing<safe_arm::JointState> state_crossing;
 mamori::Crossing<safe_arm::StopCommand> stop_crossing;
 mamori::Crossing<safe_arm::TorqueCommand> command_crossing;
 
-constexpr auto kSystem = mamori::system(
-    mamori::frame(safe_arm::kFrame), mamori::trace_hash(),
+constexpr auto kSystem = mamori::safety::system(
+    mamori::frame(safe_arm::kFrame), mamori::trace_hash(), safe_arm::make_arm_safety(safe_arm::kLatenessMax),
+    supervise(reader, alive(), deadline(safe_arm::kControllerMax)),
+    supervise(monitor, alive(), deadline(safe_arm::kControllerMax)),
+    supervise(supervisor, alive(), deadline(safe_arm::kControllerMax)),
+    supervise(controller, alive(), deadline(safe_arm::kControllerMax),
+              raises(safe_arm::ArmFault::kControllerSilent)),
+    supervise(channel, alive(), deadline(safe_arm::kControllerMax)),
+    supervise(gate, alive(), deadline(safe_arm::kControllerMax)),
     mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),
     mamori::window("control", 300_us, 400_us, mamori::partition("control"), mamori::budget(350_us),
                    mamori::run(controller)),
@@ -75,26 +82,16 @@ constexpr auto kSystem = mamori::system(
     mamori::connect(gate.drive, monitor.drive, mamori::any_age()),
     mamori::connect(reader.reading, supervisor.reading, mamori::any_age()),
     mamori::connect(monitor.state, supervisor.arm_state, mamori::any_age()),
+    mamori::connect(gate.drive, supervisor.drive, mamori::any_age()),
     mamori::connect(monitor.state, controller.state, mamori::through(state_crossing), mamori::any_age()),
     mamori::connect(supervisor.stop, controller.stop, mamori::through(stop_crossing), mamori::any_age()),
     mamori::connect(controller.command, channel.in, mamori::through(command_crossing), mamori::any_age()),
     mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
     mamori::connect(channel.out, gate.command, mamori::any_age()));
-MAMORI_CHECK(kSystem);
+MAMORI_SAFETY_CHECK(kSystem);
 
-mamori::safety::ExecutionStorageFor<kSystem> supervision_storage;
-mamori::safety::ExecutionSupervisor supervision{supervision_storage, safe_arm::kLatenessMax};
-constexpr mamori::safety::ComponentLimits kGlobalLimits{safe_arm::kAliveLimits,
-                                                        {Duration{0}, safe_arm::kControllerMax},
-                                                        mamori::safety::SupervisionScope::kGlobal};
-constexpr mamori::safety::ComponentLimits kLocalLimits{safe_arm::kAliveLimits,
-                                                       {Duration{0}, safe_arm::kControllerMax},
-                                                       mamori::safety::SupervisionScope::kLocal};
-constexpr std::array kLimits = {
-    mamori::safety::watch(reader, kGlobalLimits),     mamori::safety::watch(monitor, kGlobalLimits),
-    mamori::safety::watch(supervisor, kGlobalLimits), mamori::safety::watch(controller, kLocalLimits),
-    mamori::safety::watch(channel, kGlobalLimits),    mamori::safety::watch(gate, kGlobalLimits)};
-static_assert(mamori::safety::is_watch_list_of<kSystem, kLimits>());
+mamori::safety::SafetyStorage<kSystem> safety_storage;
+mamori::safety::SafetyState safety_state{safety_storage, watchdog, &assumptions};
 
 mamori::ExecutiveFor executive_of_table{kSystem};
 virtual_time::VirtualHostFor host_of_table{kSystem};
@@ -110,12 +107,8 @@ mamori::Executive& executive = executive_of_table;
 virtual_time::VirtualHost& virtual_host = host_of_table;
 
 Status prepare() noexcept {
-    executive.set_observer(&supervision);
+    executive.set_observer(&safety_state.get_observer());
     executive.set_introspection(&introspection);
-    const Status result = supervision.watch(kLimits);
-    if (result != Status::kOk) {
-        return result;
-    }
     return reader.configure({safe_arm::make_uniform(kCountsPerRad), safe_arm::make_uniform(kCountsPerRad)});
 }
 
@@ -142,7 +135,7 @@ Facts get_facts() noexcept {
     for (std::size_t i = 0U; i < event_log.size(); ++i) {
         const mamori::Event& event = event_log.get(i);
         facts.latched_count +=
-            event.code == static_cast<std::uint16_t>(safe_arm::ArmEvent::kFaultLatched) ? 1U : 0U;
+            event.code == static_cast<std::uint16_t>(mamori::safety::CycleEvent::kFaultLatched) ? 1U : 0U;
     }
     return facts;
 }

@@ -98,7 +98,7 @@ class DriveEncoderTest : public ::testing::Test {
     mamori::safety::ArmOutputs outputs_{};
     mamori::ports::virtual_time::VirtualWatchdog mirror_{kWatchdogTimeout};
     LinkWatchdog watchdog_{mirror_};
-    DriveEncoder sut_{outputs_, watchdog_, hil::supervisor, hil::supervision};
+    DriveEncoder sut_{outputs_, watchdog_, hil::supervisor, hil::safety_state};
 };
 
 TEST_F(DriveEncoderTest, SendsTheOutputsWithFrameAndWatchdogServices) {

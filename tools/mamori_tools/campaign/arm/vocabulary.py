@@ -14,4 +14,4 @@ STOPS = frozenset({"Ss2", "Ss1", "Sto"})
 
 DETECTED_FAULTS = (NOTHING, "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck", "FollowingError", "Overspeed",
                    "PositionLimit", "TorqueDeviation", "ControllerSilent", "CommandStale", "PowerLost", "BrakeFault",
-                   "SelfTestFailed", "MeasurementStale", "SupervisorSilent", "WatchdogExpired")  # fmt: skip
+                   "SelfTestFailed", "MeasurementStale", "ReactionLate", "SupervisorSilent", "WatchdogExpired")  # fmt: skip

@@ -155,13 +155,17 @@ std::string describe_reactions(const Finding& finding, const SystemView& view) {
     const std::string fault = "fault " + std::to_string(get_row(view.faults, finding.element).fault);
     const std::string reaction =
         "the reaction to fault " + std::to_string(get_row(view.reactions, finding.element).fault);
+    const std::string mode =
+        view.modes.modes.empty() ? "" : " in mode " + quote(get_mode_name(view, finding.other));
     switch (finding.rule) {
         case Rule::kFaultDeclaredTwice:
             return fault + " is declared twice";
         case Rule::kFaultWithoutReaction:
-            return fault + " has no reaction";
+            return fault + " has no reaction" + mode;
         case Rule::kFaultWithTwoReactions:
-            return fault + " has more than one reaction";
+            return fault + " has more than one reaction" + mode;
+        case Rule::kReactionInUnknownMode:
+            return reaction + " names no mode, or one that is not in the table";
         case Rule::kReactionWithoutTime:
             return reaction + " has " + format(get_row(view.reactions, finding.element).within);
         case Rule::kReactionToUnknownFault:
@@ -226,6 +230,7 @@ std::string describe_element(const Finding& finding, const SystemView& view) {
         case Rule::kFaultDeclaredTwice:
         case Rule::kFaultWithoutReaction:
         case Rule::kFaultWithTwoReactions:
+        case Rule::kReactionInUnknownMode:
         case Rule::kReactionWithoutTime:
         case Rule::kReactionToUnknownFault:
             return describe_reactions(finding, view);

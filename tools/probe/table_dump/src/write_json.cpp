@@ -19,7 +19,7 @@ using json::quote;
 using json::quote_enumerator;
 using json::write_rows;
 
-constexpr const char* kSchema = "mamori.table/3";
+constexpr const char* kSchema = "mamori.table/4";
 
 const char* get_name(ExecutionKind kind) {
     switch (kind) {
@@ -113,7 +113,8 @@ std::string make_reaction(const SystemView& view, const Names& names, std::size_
     const ReactionRow& row = view.reactions[index];
     return "{\"fault\": " + std::to_string(row.fault) +
            ", \"reaction\": " + quote_enumerator(names.reactions, row.reaction) +
-           ", \"within_ns\": " + std::to_string(row.within.ns) + "}";
+           ", \"within_ns\": " + std::to_string(row.within.ns) +
+           ", \"modes\": " + make_modes_of(view, row.modes) + "}";
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST(WriteJsonTest, WindowsContainTimesRatesAndIndices) {
     verifies("SWR-TAB-001");
     const json table = dump(make_view(kSystem));
 
-    EXPECT_EQ(table["schema"], "mamori.table/3");
+    EXPECT_EQ(table["schema"], "mamori.table/4");
     EXPECT_EQ(table["frame_ns"], 10'000'000);
     EXPECT_EQ(table["abort_policy"], "spec_only");
     ASSERT_EQ(table["windows"].size(), 3U);
@@ -116,7 +116,7 @@ TEST(WriteJsonTest, FaultsAndReactionsHaveTheGivenNames) {
     EXPECT_EQ(table["faults"],
               json::parse(R"([{"number": 0, "name": "Overspeed"}, {"number": 1, "name": "1"}])"));
     EXPECT_EQ(table["reactions"][0],
-              json::parse(R"({"fault": 0, "reaction": "Ss1", "within_ns": 20000000})"));
+              json::parse(R"({"fault": 0, "reaction": "Ss1", "within_ns": 20000000, "modes": []})"));
     EXPECT_EQ(dump(make_view(kSystem))["reactions"][1]["reaction"], "2");
 }
 

@@ -144,8 +144,7 @@ class Drive final : public Component {
         const bool is_stop = order.reaction != static_cast<std::uint32_t>(Reaction::kNone);
         if (is_stop && !was_stop_ && system_log->clock != nullptr) {
             const bool is_known = order.fault < kReactions.size();
-            const bool is_declared =
-                is_known && order.reaction == static_cast<std::uint32_t>(kReactions[order.fault].reaction);
+            const bool is_declared = is_known && order.reaction == kReactions[order.fault].reaction;
             add(system_log->reactions,
                 {system_log->clock->get_now(), static_cast<PartitionFault>(order.fault), is_declared});
         }
@@ -186,13 +185,13 @@ Drive drive;
 Witness tell_witness{"tell_witness", 3U};
 ports::posix_rt::PartitionSender<Request> sender{"sender", request_writer};
 /// Budgets have slack for the longest host stall that is not recorded.
-constexpr auto kSystem =
-    system(frame(kFrame), window("ask", 0_us, 240_us, budget(230_us), mamori::run(ask_witness, asker)),
-           window("protect", 240_us, 240_us, budget(230_us), mamori::run(protect_witness, receiver, guard)),
-           window("act", 480_us, 240_us, budget(230_us), mamori::run(act_witness, drive)),
-           window("tell", 720_us, 240_us, budget(230_us), mamori::run(tell_witness, sender)),
-           connect(receiver.out, guard.answer, any_age()), connect(receiver.news, guard.news, any_age()),
-           connect(guard.stop, drive.stop, any_age()), connect(asker.request, sender.in, any_age()));
+constexpr auto kSystem = system(
+    frame(kFrame), kFaults, window("ask", 0_us, 240_us, budget(230_us), mamori::run(ask_witness, asker)),
+    window("protect", 240_us, 240_us, budget(230_us), mamori::run(protect_witness, receiver, guard)),
+    window("act", 480_us, 240_us, budget(230_us), mamori::run(act_witness, drive)),
+    window("tell", 720_us, 240_us, budget(230_us), mamori::run(tell_witness, sender)),
+    connect(receiver.out, guard.answer, any_age()), connect(receiver.news, guard.news, any_age()),
+    connect(guard.stop, drive.stop, any_age()), connect(asker.request, sender.in, any_age()));
 MAMORI_CHECK(kSystem);
 static_assert(kSystem.kWindowCount == kWindowCount);
 ExecutiveFor executive_of_table{kSystem};

@@ -14,6 +14,7 @@
 
 #include "course.hpp"
 #include "mamori/kernel/run/executive.hpp"
+#include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/ports/posix_rt/partition_link.hpp"
@@ -28,11 +29,12 @@ inline constexpr std::size_t kRequestCapacity = ports::posix_rt::PartitionSender
 inline constexpr std::size_t kAnswerCapacity = ports::posix_rt::PartitionReceiver<Answer>::kCapacity;
 
 /// After missing replies or a flood, the drive stops along its path. After corruption, it stops immediately.
-inline constexpr std::array<safety::ReactionRow, static_cast<std::size_t>(PartitionFault::kCount)> kReactions{
-    safety::react(PartitionFault::kSilent, safety::Reaction::kSs1, kReactionTime),
-    safety::react(PartitionFault::kFlooding, safety::Reaction::kSs1, kReactionTime),
-    safety::react(PartitionFault::kCorrupt, safety::Reaction::kSto, kReactionTime)};
-static_assert(safety::covers_all<kReactions, PartitionFault::kCount>());
+inline constexpr auto kFaults =
+    parts(faults<PartitionFault::kSilent, PartitionFault::kFlooding, PartitionFault::kCorrupt>(),
+          react(PartitionFault::kSilent, safety::Reaction::kSs1, within(kReactionTime)),
+          react(PartitionFault::kFlooding, safety::Reaction::kSs1, within(kReactionTime)),
+          react(PartitionFault::kCorrupt, safety::Reaction::kSto, within(kReactionTime)));
+inline constexpr auto kReactions = system(frame(kFrame), kFaults).reactions;
 
 /// Records of the components, in memory that was allocated before the run; rows beyond the capacity are
 /// dropped.

@@ -13,6 +13,7 @@
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/base/type_list.hpp"
 #include "mamori/kernel/system/detail/part_types.hpp"
+#include "mamori/kernel/table/mode_mask.hpp"
 #include "mamori/kernel/table/system_table.hpp"
 
 namespace mamori {
@@ -48,6 +49,19 @@ constexpr Within within(Duration limit) noexcept {
     return {limit};
 }
 
+/// Made by in_modes().
+struct InModes {
+    ModeMask mask;
+};
+/// Modes in which a reaction is the answer to its fault; without it, every mode.
+/// @tparam kModes enumerators of the modes of the table, each below kSystemModeMax.
+template <auto... kModes>
+constexpr InModes in_modes() noexcept {
+    static_assert(sizeof...(kModes) > 0U && ((detail::to_number(kModes) < kSystemModeMax) && ...),
+                  "in_modes<...>() names modes of the table");
+    return {(to_mask(detail::to_number(kModes)) | ...)};
+}
+
 /// Made by react().
 template <typename Fault, typename Reaction>
 struct ReactionPart {
@@ -59,10 +73,12 @@ struct ReactionPart {
     ReactionRow row{};
 };
 /// Reaction to a fault; both are enumerators of the application or of the safety layer, at most 32 bits. The
-/// kernel stores the row and executes nothing.
+/// kernel checks and stores the row, and the safety layer executes it. Each fault has exactly one reaction in
+/// each mode of the table.
 template <typename Fault, typename Reaction>
-constexpr ReactionPart<Fault, Reaction> react(Fault fault, Reaction reaction, Within time) noexcept {
-    return {{detail::to_number(fault), detail::to_number(reaction), time.limit}};
+constexpr ReactionPart<Fault, Reaction> react(Fault fault, Reaction reaction, Within time,
+                                              InModes modes = {kEveryMode}) noexcept {
+    return {{detail::to_number(fault), detail::to_number(reaction), time.limit, modes.mask}};
 }
 
 }  // namespace mamori

@@ -97,6 +97,14 @@ constexpr void add_part(Builder& builder, const ModeTransitionPart<Event>& part)
     builder.table.modes.event_enumeration = &kEnumerationTag<Event>;
 }
 
+template <typename Builder>
+constexpr void add_part(Builder&, const PartGroup<>&) noexcept {}
+template <typename Builder, typename First, typename... Rest>
+constexpr void add_part(Builder& builder, const PartGroup<First, Rest...>& group) noexcept {
+    add_part(builder, group.first);
+    add_part(builder, group.rest);
+}
+
 template <typename Types>
 using TableOf = SystemTable<
     Types::kWindows, Types::Components::kSize, Types::Ports::kSize, Types::kConnections, Types::Faults::kSize,
@@ -115,40 +123,50 @@ struct DescribedSystem : detail::TableOf<PartTypes> {
     std::array<Duration, Types::kActionBudgets> action_budgets{};  ///< none, or the one that is stated
 };
 
-/// Builds the table from a major frame and its parts, in any order. Windows, components, ports, connections,
-/// modes and reactions are numbered in the order listed. MAMORI_CHECK reports violated rules. Everything that
-/// the table refers to must outlive it. For constant expressions: O(rows squared).
-template <typename... Parts>
-constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
-    using Types = detail::JoinedTypes<Parts...>;
+namespace detail {
+
+/// @tparam Table DescribedSystem, or a table that a layer above derives from it; its parts then have an
+///               add_part() for TableBuilder<Table>.
+template <template <typename> class Table, typename... Parts>
+constexpr auto build_system(Frame frame_part, const Parts&... parts) noexcept {
+    using Types = JoinedTypes<Parts...>;
     static_assert(Types::kModes <= kSystemModeMax, "a system has at most 32 modes");
-    using Modes = detail::ModesOf<typename Types::ModeEnumerators>;
+    using Modes = ModesOf<typename Types::ModeEnumerators>;
     static_assert(
         Types::ModeEnumerators::kSize == 0U || Types::ModeEnumerators::kSize == Types::kModes,
         "a mode without an enumerator; write system_mode<...>() and safe_mode<...>() for all modes");
     static_assert(Modes::kAreInOrder,
                   "the modes of a system are the enumerators 0, 1, ... of one enumeration, in this order");
-    static_assert(detail::kIsOfOneType<typename Types::Events>,
+    static_assert(kIsOfOneType<typename Types::Events>,
                   "the events of all transitions of a system are enumerators of one enumeration");
-    static_assert(detail::kIsOfOneType<typename Types::FaultTypes> &&
-                      detail::kIsOfOneType<typename Types::ReactionTypes>,
+    static_assert(kIsOfOneType<typename Types::FaultTypes> && kIsOfOneType<typename Types::ReactionTypes>,
                   "all faults of a system are enumerators of one enumeration, and so are all reactions");
-    static_assert(detail::kTimesSaid<AbortPolicyPart, Parts...> <= 1U, "abort_policy(...) is said once");
-    static_assert(detail::kTimesSaid<PublicationMarginPart, Parts...> <= 1U,
+    static_assert(kTimesSaid<AbortPolicyPart, Parts...> <= 1U, "abort_policy(...) is said once");
+    static_assert(kTimesSaid<PublicationMarginPart, Parts...> <= 1U,
                   "duplicate publication_margin(...); specify it at most once");
     static_assert(Types::kActionBudgets <= 1U, "duplicate action_budget(...); specify it at most once");
-    static_assert(detail::kTimesSaid<TraceHashPart, Parts...> <= 1U,
+    static_assert(kTimesSaid<TraceHashPart, Parts...> <= 1U,
                   "duplicate trace_hash(); specify it at most once");
-    detail::TableBuilder<DescribedSystem<Types>> builder{};
+    TableBuilder<Table<Types>> builder{};
     builder.table.frame = frame_part.length;
     builder.table.modes.mode_enumeration = Modes::kTag;
-    (detail::add_part(builder, parts), ...);
+    (add_part(builder, parts), ...);
     builder.table.configuration = builder.configuration.finish();
-    detail::resolve_background(builder.table);
-    detail::resolve_connections(builder.table);
-    detail::resolve_modes(builder.table);
-    detail::sort_connections(builder.table);
+    resolve_background(builder.table);
+    resolve_connections(builder.table);
+    resolve_modes(builder.table);
+    sort_connections(builder.table);
     return builder.table;
+}
+
+}  // namespace detail
+
+/// Builds the table from a major frame and its parts, in any order. Windows, components, ports, connections,
+/// modes and reactions are numbered in the order listed. MAMORI_CHECK reports violated rules. Everything that
+/// the table refers to must outlive it. For constant expressions: O(rows squared).
+template <typename... Parts>
+constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
+    return detail::build_system<DescribedSystem>(frame_part, parts...);
 }
 
 }  // namespace mamori

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Parts of a description that apply to the whole system: major frame, abort policy, publication margin,
-/// action budget, trace hash and modelled times.
+/// action budget, trace hash and modelled times; and groups of parts.
 ///
 /// @satisfies SWR-KRN-017, SWR-KRN-050, SWR-KRN-051, SWR-KRN-064, SWR-KRN-092      Design:
 /// docs/design/kernel.md#system-table
@@ -24,6 +24,27 @@ struct Frame {
 /// @param[in] length > 0; MAMORI_CHECK rejects any other.
 constexpr Frame frame(Duration length) noexcept {
     return {length};
+}
+
+/// Made by parts().
+template <typename... Parts>
+struct PartGroup {
+    using Types = detail::NoTypes;
+};
+template <typename First, typename... Rest>
+struct PartGroup<First, Rest...> {
+    using Types = detail::JoinedTypes<First, Rest...>;
+    First first;
+    PartGroup<Rest...> rest;
+};
+constexpr PartGroup<> parts() noexcept {
+    return {};
+}
+/// Several parts as one, for parts that more than one table has, for example its faults and reactions.
+/// @param[in] first, rest parts of a description, in this order.
+template <typename First, typename... Rest>
+constexpr PartGroup<First, Rest...> parts(const First& first, const Rest&... rest) noexcept {
+    return {first, parts(rest...)};
 }
 
 /// Made by abort_policy().

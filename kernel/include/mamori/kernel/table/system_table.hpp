@@ -31,7 +31,8 @@ struct FaultRow {
 struct ReactionRow {
     std::uint32_t fault{0U};
     std::uint32_t reaction{0U};
-    Duration within{};  ///< from the confirmed fault to the start of the reaction, > 0
+    Duration within{};           ///< from the confirmed fault to the start of the reaction, > 0
+    ModeMask modes{kEveryMode};  ///< modes in which this is the reaction
 };
 
 /// Rows with their number in the type.

@@ -16,7 +16,7 @@ namespace mamori::safety {
 struct StopOutputs {
     bool torque_enable{false};   ///< false = safe torque off (STO)
     bool brake_release{false};   ///< false = all brakes close (SBC)
-    bool stop_requested{false};  ///< the controller shall bring the machine to a stop
+    bool stop_requested{false};  ///< the controller shall bring the machine to a stop, or not leave it
     bool hold_requested{false};  ///< the controller shall hold the position (SOS)
 };
 
@@ -34,7 +34,7 @@ inline constexpr std::array<StopOutputs, kSafeStateCount> kStopOutputs{{
     {true, true, false, false},    // kDegraded
     {true, true, true, false},     // kProtectiveStopSs2
     {true, true, true, false},     // kProtectiveStopSs1
-    {true, true, false, true},     // kStandstillHold
+    {true, true, true, true},      // kStandstillHold
     {false, false, false, false},  // kSafe
     {false, false, false, false},  // kLockedOut
 }};
@@ -56,7 +56,18 @@ constexpr bool do_torque_and_brakes_agree(const std::array<StopOutputs, kSafeSta
     return true;
 }
 
+/// A controller that follows the stop only must not move a held machine.
+constexpr bool is_hold_a_stop(const std::array<StopOutputs, kSafeStateCount>& outputs) noexcept {
+    for (const StopOutputs& row : outputs) {
+        if (row.hold_requested && !row.stop_requested) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static_assert(do_torque_and_brakes_agree(kStopOutputs), "brakes are open exactly while torque is on");
+static_assert(is_hold_a_stop(kStopOutputs), "a hold is a stop that lasts");
 
 }  // namespace detail
 

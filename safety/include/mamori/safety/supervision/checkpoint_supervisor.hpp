@@ -3,7 +3,8 @@
 /// Supervises entities by the checkpoints that they report: that each comes often enough and not too often,
 /// in time, and in order; and sums up to the status of the whole. A violation is latched when it is found.
 ///
-/// @satisfies SWR-SUP-020, SWR-SUP-021, SWR-SUP-022, SWR-SUP-023, SWR-SUP-024, SWR-SUP-025, SWR-SUP-026
+/// @satisfies SWR-SUP-003, SWR-SUP-004, SWR-SUP-005, SWR-SUP-006, SWR-SUP-020, SWR-SUP-021, SWR-SUP-024
+/// @satisfies SWR-SUP-026
 /// @satisfies SWR-SUP-027, SWR-SUP-028, SWR-SUP-029, SWR-SUP-030, SWR-SUP-031, SWR-SUP-036, SWR-SUP-039
 /// @satisfies SWR-SUP-042
 /// Design:   docs/design/supervision.md#checkpoint-supervision

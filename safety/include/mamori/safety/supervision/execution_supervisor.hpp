@@ -20,7 +20,7 @@
 #include "mamori/kernel/run/execution_observer.hpp"
 #include "mamori/kernel/table/index_of.hpp"
 #include "mamori/safety/supervision/alive_supervisor.hpp"
-#include "mamori/safety/supervision/deadline_supervisor.hpp"
+#include "mamori/safety/supervision/deadline_limits.hpp"
 
 namespace mamori::safety {
 

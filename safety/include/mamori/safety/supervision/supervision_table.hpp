@@ -24,7 +24,7 @@
 
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/table/mode_mask.hpp"
-#include "mamori/safety/supervision/deadline_supervisor.hpp"
+#include "mamori/safety/supervision/deadline_limits.hpp"
 
 namespace mamori::safety {
 

@@ -26,6 +26,7 @@ struct NoTypes {
     using Events = TypeList<>;              ///< enumeration of the event of each transition
     using ModeEnumerators = TypeList<>;     ///< of the modes that have one
     using ModelledComponents = TypeList<>;  ///< component of each modelled time
+    using Extensions = TypeList<>;          ///< parts that a layer above adds to its own table
     static constexpr std::size_t kWindows = 0U;
     static constexpr std::size_t kConnections = 0U;
     static constexpr std::size_t kReactions = 0U;
@@ -62,6 +63,7 @@ struct JoinedTypes {
     using Events = typename Concat<typename TypesOfPart<Parts>::Events...>::Type;
     using ModeEnumerators = typename Concat<typename TypesOfPart<Parts>::ModeEnumerators...>::Type;
     using ModelledComponents = typename Concat<typename TypesOfPart<Parts>::ModelledComponents...>::Type;
+    using Extensions = typename Concat<typename TypesOfPart<Parts>::Extensions...>::Type;
     static constexpr std::size_t kWindows = (TypesOfPart<Parts>::kWindows + ... + 0U);
     static constexpr std::size_t kConnections = (TypesOfPart<Parts>::kConnections + ... + 0U);
     static constexpr std::size_t kReactions = (TypesOfPart<Parts>::kReactions + ... + 0U);

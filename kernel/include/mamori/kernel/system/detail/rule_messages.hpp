@@ -41,6 +41,7 @@ namespace rules {
 #define MAMORI_PARAMETERS_OF_Port typename, auto, std::size_t
 #define MAMORI_PARAMETERS_OF_ModelledTime typename...
 #define MAMORI_PARAMETERS_OF_Fault auto
+#define MAMORI_PARAMETERS_OF_FaultInMode auto, typename...
 #define MAMORI_PARAMETERS_OF_Mode typename...
 #define MAMORI_PARAMETERS_OF_ModeMember typename...
 #define MAMORI_PARAMETERS_OF_ModeSet typename...
@@ -104,6 +105,19 @@ template <template <typename...> class R, const auto& kTable, std::size_t kEleme
 using ModelledTime = R<At<typename TypesOf<kTable>::ModelledComponents, kElement>, rules::Row<kElement>>;
 template <template <auto> class R, const auto& kTable, std::size_t kElement, std::size_t>
 using Fault = R<At<typename TypesOf<kTable>::Faults, kElement>::kValue>;
+/// Without the mode in a table without modes.
+template <template <auto, typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther,
+          bool kHasModes>
+struct ShowFaultInMode {
+    using Type = R<At<typename TypesOf<kTable>::Faults, kElement>::kValue>;
+};
+template <template <auto, typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
+struct ShowFaultInMode<R, kTable, kElement, kOther, true> {
+    using Type = R<At<typename TypesOf<kTable>::Faults, kElement>::kValue, ModeName<kTable, kOther>>;
+};
+template <template <auto, typename...> class R, const auto& kTable, std::size_t kElement, std::size_t kOther>
+using FaultInMode =
+    typename ShowFaultInMode<R, kTable, kElement, kOther, TypesOf<kTable>::kModes != 0U>::Type;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t>
 using Mode = R<ModeName<kTable, kElement>>;
 template <template <typename...> class R, const auto& kTable, std::size_t kElement, std::size_t>

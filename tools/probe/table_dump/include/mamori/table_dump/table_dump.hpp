@@ -39,7 +39,7 @@ std::string describe(const Finding& finding, const SystemView& view);
 /// Every finding of check_all(), in words; empty if the table complies with every rule.
 std::vector<std::string> describe_all(const SystemView& view);
 
-/// Writes one JSON document of schema `mamori.table/3` (docs/design/cost.md#schema): ASCII, names in UTF-8,
+/// Writes one JSON document of schema `mamori.table/4` (docs/design/cost.md#schema): ASCII, names in UTF-8,
 /// times as integer nanoseconds, rates in Hz.
 void write_json(std::ostream& out, const SystemView& view, const Names& names = {});
 

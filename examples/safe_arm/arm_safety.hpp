@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Safety part of each system table of the example: faults with confirmation, reactions, stops, brakes and
+/// watchdog. Each table adds the supervision of its components.
+///
+/// @satisfies SWR-SAF-002, SWR-SAF-020      Design: docs/design/safe_arm.md#reactions
+#ifndef EXAMPLES_SAFE_ARM_ARM_SAFETY_HPP
+#define EXAMPLES_SAFE_ARM_ARM_SAFETY_HPP
+
+#include "arm_faults.hpp"
+#include "arm_limits.hpp"
+#include "mamori/safety/cycle/safety_rules.hpp"
+
+namespace safe_arm {
+
+using mamori::safety::Reaction;
+
+/// Times are from the confirmed fault to the start of its reaction. STO always comes with closed brakes.
+inline constexpr auto kArmReactions = mamori::parts(
+    mamori::faults<ArmFault::kEncoderImplausible, ArmFault::kEncoderDiscrepancy, ArmFault::kEncoderStuck,
+                   ArmFault::kFollowingError, ArmFault::kOverspeed, ArmFault::kPositionLimit,
+                   ArmFault::kTorqueDeviation, ArmFault::kControllerSilent, ArmFault::kCommandStale,
+                   ArmFault::kPowerLost, ArmFault::kBrakeFault, ArmFault::kSelfTestFailed,
+                   ArmFault::kMeasurementStale, ArmFault::kReactionLate>(),
+    mamori::react(ArmFault::kEncoderImplausible, Reaction::kSs1, mamori::within(2_ms)),
+    mamori::react(ArmFault::kEncoderDiscrepancy, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kEncoderStuck, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kFollowingError, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kOverspeed, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kPositionLimit, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kTorqueDeviation, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kControllerSilent, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kCommandStale, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kPowerLost, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kBrakeFault, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kSelfTestFailed, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kMeasurementStale, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kReactionLate, Reaction::kSto, mamori::within(2_ms)));
+
+/// @param[in] lateness_max latest window start that is tolerated; it depends on the platform.
+constexpr auto make_arm_safety(mamori::Duration lateness_max) noexcept {
+    namespace safety = mamori::safety;
+    return mamori::parts(
+        kArmReactions, safety::confirm(ArmFault::kEncoderDiscrepancy, {kDiscrepancyFrames}),
+        safety::confirm(ArmFault::kOverspeed, {kOverspeedFrames}),
+        safety::confirm(ArmFault::kTorqueDeviation, {kTorqueDeviationFrames}),
+        safety::cycle(kStopBounds, kBrakes, kWatchdogWindow, safety::torque_feedback(kTorqueFeedbackTime),
+                      safety::tolerated_lateness(lateness_max),
+                      safety::on_late_reaction(safety::raises(ArmFault::kReactionLate)),
+                      safety::on_failed_self_test(safety::raises(ArmFault::kSelfTestFailed)),
+                      safety::on_unconfirmed_brakes(safety::raises(ArmFault::kBrakeFault))));
+}
+
+}  // namespace safe_arm
+
+#endif  // EXAMPLES_SAFE_ARM_ARM_SAFETY_HPP

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Parts of a description that only mamori::safety::system(...) has: supervision of components, confirmation
+/// of faults, bounds of stops, brakes and watchdog.
+///
+/// @satisfies SWR-CYC-001      Design: docs/design/safety_cycle.md#the-table
+#ifndef MAMORI_SAFETY_SAFETY_PART_HPP
+#define MAMORI_SAFETY_SAFETY_PART_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "mamori/kernel/component/component.hpp"
+#include "mamori/kernel/system/system_extension.hpp"
+#include "mamori/safety/reaction/brake_sequence.hpp"
+#include "mamori/safety/reaction/fault_register.hpp"
+#include "mamori/safety/reaction/safe_state_machine.hpp"
+#include "mamori/safety/supervision/execution_supervisor.hpp"
+#include "mamori/safety/supervision/watchdog_gate.hpp"
+
+namespace mamori::safety {
+
+/// Supervision of one component.
+struct SuperviseRow {
+    WatchRow watch{};
+    FaultIndex fault{kNoFault};  ///< present while the component is expired; kNoFault: the watchdog expires
+};
+/// Confirmation and healing of one fault.
+struct ConfirmRow {
+    FaultIndex fault{kNoFault};
+    Confirmation confirmation{};
+    Healing healing{};
+};
+/// Settings of the safety cycle that a table states once.
+struct CycleRow {
+    StopBounds stops{};
+    BrakeLimits brakes{};
+    WatchdogWindow watchdog{};
+    Duration torque_feedback{0};           ///< longest time of torque despite STO, > 0
+    Duration lateness_max{0};              ///< latest window start that is tolerated, >= 0
+    FaultIndex late_fault{kNoFault};       ///< a reaction started later than its within(...)
+    FaultIndex self_test_fault{kNoFault};  ///< a self test or an assumption failed
+    FaultIndex brake_fault{kNoFault};      ///< the brakes did not confirm their closing in time
+};
+
+namespace detail {
+
+template <typename Fault>
+constexpr FaultIndex to_fault(Fault fault) noexcept {
+    static_assert(std::is_enum_v<Fault>, "faults are the enumerators of one enumeration");
+    // A number out of range becomes one that the check rejects.
+    const auto number = static_cast<std::uint64_t>(fault);
+    return number < kNoFault ? static_cast<FaultIndex>(number) : static_cast<FaultIndex>(kNoFault - 1U);
+}
+
+}  // namespace detail
+
+/// A component that does not run for this long is expired.
+/// @param[in] late_cycles, expired_cycles major frames without a run; 1 <= late <= expired.
+constexpr AliveLimits alive(std::uint32_t late_cycles = 2U, std::uint32_t expired_cycles = 3U) noexcept {
+    return {late_cycles, expired_cycles};
+}
+/// Duration of each run of a component. @param[in] longest > 0. @param[in] shortest 0 .. longest.
+constexpr DeadlineLimits deadline(Duration longest, Duration shortest = {}) noexcept {
+    return {shortest, longest};
+}
+
+/// Made by raises().
+template <typename Fault>
+struct Raises {
+    Fault fault;
+};
+/// The fault that an expired component raises. Without it, the watchdog is not served while the component is
+/// late or expired.
+template <typename Fault>
+constexpr Raises<Fault> raises(Fault fault) noexcept {
+    return {fault};
+}
+
+/// Made by supervise().
+struct SupervisePart {
+    using Types = extension::ExtensionTypes<SupervisePart>;
+    SuperviseRow row{};
+};
+/// Supervises a component of the table. Its failure prevents the service of the watchdog.
+/// @param[in] component run by a window; must outlive the table. @param[in] silence alive(...).
+/// @param[in] duration deadline(...).
+constexpr SupervisePart supervise(const Component& component, AliveLimits silence,
+                                  DeadlineLimits duration) noexcept {
+    return {{watch(component, {silence, duration, SupervisionScope::kGlobal}), kNoFault}};
+}
+/// The same for a component whose failure is a declared fault. @param[in] fault raises(...).
+template <typename Fault>
+constexpr SupervisePart supervise(const Component& component, AliveLimits silence, DeadlineLimits duration,
+                                  Raises<Fault> fault) noexcept {
+    return {{watch(component, {silence, duration, SupervisionScope::kLocal}), detail::to_fault(fault.fault)}};
+}
+
+/// Made by confirm().
+struct ConfirmPart {
+    using Types = extension::ExtensionTypes<ConfirmPart>;
+    ConfirmRow row{};
+};
+/// When a fault is latched, and when it may be acknowledged. Without it: in its first cycle, after one cycle
+/// without it. @param[in] fault declared by faults<...>(). @param[in] confirmation, healing is_valid().
+template <typename Fault>
+constexpr ConfirmPart confirm(Fault fault, Confirmation confirmation, Healing healing = {}) noexcept {
+    return {{detail::to_fault(fault), confirmation, healing}};
+}
+
+/// Made by tolerated_lateness().
+struct ToleratedLateness {
+    Duration limit;
+};
+/// Latest window start that is tolerated. @param[in] limit >= 0.
+constexpr ToleratedLateness tolerated_lateness(Duration limit) noexcept {
+    return {limit};
+}
+/// Made by torque_feedback().
+struct TorqueFeedback {
+    Duration limit;
+};
+/// Torque that lasts longer than this after STO locks the machine out: only the watchdog can switch it off.
+/// @param[in] limit > 0.
+constexpr TorqueFeedback torque_feedback(Duration limit) noexcept {
+    return {limit};
+}
+/// Made by on_late_reaction().
+struct OnLateReaction {
+    FaultIndex fault;
+};
+/// Fault of a reaction that starts later than its within(...). @param[in] fault raises(...).
+template <typename Fault>
+constexpr OnLateReaction on_late_reaction(Raises<Fault> fault) noexcept {
+    return {detail::to_fault(fault.fault)};
+}
+/// Made by on_failed_self_test().
+struct OnFailedSelfTest {
+    FaultIndex fault;
+};
+/// Fault of a self test or an assumption that fails. @param[in] fault raises(...).
+template <typename Fault>
+constexpr OnFailedSelfTest on_failed_self_test(Raises<Fault> fault) noexcept {
+    return {detail::to_fault(fault.fault)};
+}
+
+/// Made by on_unconfirmed_brakes().
+struct OnUnconfirmedBrakes {
+    FaultIndex fault;
+};
+/// Fault of brakes whose contacts do not report "closed" within BrakeLimits::closes_within after the command;
+/// never with brakes without contacts. @param[in] fault raises(...).
+template <typename Fault>
+constexpr OnUnconfirmedBrakes on_unconfirmed_brakes(Raises<Fault> fault) noexcept {
+    return {detail::to_fault(fault.fault)};
+}
+
+/// Made by cycle().
+struct CyclePart {
+    using Types = extension::ExtensionTypes<CyclePart>;
+    CycleRow row{};
+};
+
+namespace detail {
+
+constexpr void apply(CycleRow& row, StopBounds option) noexcept {
+    row.stops = option;
+}
+constexpr void apply(CycleRow& row, BrakeLimits option) noexcept {
+    row.brakes = option;
+}
+constexpr void apply(CycleRow& row, WatchdogWindow option) noexcept {
+    row.watchdog = option;
+}
+constexpr void apply(CycleRow& row, TorqueFeedback option) noexcept {
+    row.torque_feedback = option.limit;
+}
+constexpr void apply(CycleRow& row, ToleratedLateness option) noexcept {
+    row.lateness_max = option.limit;
+}
+constexpr void apply(CycleRow& row, OnLateReaction option) noexcept {
+    row.late_fault = option.fault;
+}
+constexpr void apply(CycleRow& row, OnFailedSelfTest option) noexcept {
+    row.self_test_fault = option.fault;
+}
+constexpr void apply(CycleRow& row, OnUnconfirmedBrakes option) noexcept {
+    row.brake_fault = option.fault;
+}
+
+}  // namespace detail
+
+/// Settings of the safety cycle; once per table.
+/// @param[in] options each once: StopBounds, BrakeLimits (they close within the bound of SS1),
+///                    WatchdogWindow, torque_feedback(...), tolerated_lateness(...), on_late_reaction(...),
+///                    on_failed_self_test(...), on_unconfirmed_brakes(...).
+template <typename... Options>
+constexpr CyclePart cycle(const Options&... options) noexcept {
+    static_assert(extension::kIsSaidOnce<StopBounds, Options...>, "a cycle states its StopBounds once");
+    static_assert(extension::kIsSaidOnce<BrakeLimits, Options...>, "a cycle states its BrakeLimits once");
+    static_assert(extension::kIsSaidOnce<WatchdogWindow, Options...>,
+                  "a cycle states its WatchdogWindow once");
+    static_assert(extension::kIsSaidOnce<TorqueFeedback, Options...>,
+                  "a cycle states torque_feedback(...) once");
+    static_assert(extension::kIsSaidOnce<ToleratedLateness, Options...>,
+                  "a cycle states tolerated_lateness(...) once");
+    static_assert(extension::kIsSaidOnce<OnLateReaction, Options...>,
+                  "a cycle states on_late_reaction(...) once");
+    static_assert(extension::kIsSaidOnce<OnFailedSelfTest, Options...>,
+                  "a cycle states on_failed_self_test(...) once");
+    static_assert(extension::kIsSaidOnce<OnUnconfirmedBrakes, Options...>,
+                  "a cycle states on_unconfirmed_brakes(...) once");
+    CyclePart part{};
+    (detail::apply(part.row, options), ...);
+    return part;
+}
+
+}  // namespace mamori::safety
+
+#endif  // MAMORI_SAFETY_SAFETY_PART_HPP

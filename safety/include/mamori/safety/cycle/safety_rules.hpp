@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// MAMORI_SAFETY_CHECK: rejects a constexpr table of mamori::safety::system() that violates a rule of the
+/// kernel (table_rules.hpp) or one of the rules below. The message names the faulty element.
+///
+/// @satisfies SWR-CYC-002      Design: docs/design/safety_cycle.md#the-table
+#ifndef MAMORI_SAFETY_SAFETY_RULES_HPP
+#define MAMORI_SAFETY_SAFETY_RULES_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "mamori/kernel/system/system_extension.hpp"
+#include "mamori/safety/cycle/system.hpp"
+
+namespace mamori::safety {
+
+/// What is wrong with a table; the row counts what the rule names, in the order of the description.
+enum class SafetyRule : std::uint8_t {
+    kNone,
+    kFaultsNumbered,          ///< fault
+    kReactionKnown,           ///< reaction
+    kSupervisedInTable,       ///< supervise
+    kSupervisedOnce,          ///< supervise
+    kAliveInRange,            ///< supervise
+    kDeadlineInRange,         ///< supervise
+    kRaisedFaultDeclared,     ///< supervise
+    kSomethingProven,         ///< supervise
+    kConfirmedFaultDeclared,  ///< confirm
+    kConfirmedOnce,           ///< confirm
+    kConfirmationInRange,     ///< confirm
+    kCycleOnce,               ///< cycle
+    kStopBoundsInRange,       ///< cycle
+    kBrakesHaveTime,          ///< cycle
+    kWatchdogInRange,         ///< cycle
+    kTorqueFeedbackInRange,   ///< cycle
+    kLatenessInRange,         ///< cycle
+    kCycleFaultDeclared,      ///< cycle
+};
+
+/// The first violated rule; kNone when there is none.
+struct SafetyFinding {
+    SafetyRule rule{SafetyRule::kNone};
+    std::size_t row{0U};
+};
+
+namespace detail {
+
+template <typename Table>
+constexpr SafetyFinding check_faults(const Table& table) noexcept {
+    for (std::size_t i = 0U; i < table.faults.size(); ++i) {
+        if (table.faults[i].fault != i) {
+            return {SafetyRule::kFaultsNumbered, i};
+        }
+    }
+    for (std::size_t i = 0U; i < table.reactions.size(); ++i) {
+        if (table.reactions[i].reaction > static_cast<std::uint32_t>(Reaction::kSto)) {
+            return {SafetyRule::kReactionKnown, i};
+        }
+    }
+    return {};
+}
+
+template <typename Table>
+constexpr SafetyFinding check_supervision(const Table& table) noexcept {
+    bool is_something_proven = false;
+    for (std::size_t i = 0U; i < table.supervised.size(); ++i) {
+        const SuperviseRow& row = table.supervised[i];
+        if (find_component(table.components, row.watch.component) == kNoIndex) {
+            return {SafetyRule::kSupervisedInTable, i};
+        }
+        for (std::size_t earlier = 0U; earlier < i; ++earlier) {
+            if (table.supervised[earlier].watch.component == row.watch.component) {
+                return {SafetyRule::kSupervisedOnce, i};
+            }
+        }
+        if (!is_valid(row.watch.limits.alive)) {
+            return {SafetyRule::kAliveInRange, i};
+        }
+        if (!is_valid(row.watch.limits.deadline)) {
+            return {SafetyRule::kDeadlineInRange, i};
+        }
+        if (row.fault != kNoFault && row.fault >= table.faults.size()) {
+            return {SafetyRule::kRaisedFaultDeclared, i};
+        }
+        is_something_proven = is_something_proven || row.fault == kNoFault;
+    }
+    return {is_something_proven ? SafetyRule::kNone : SafetyRule::kSomethingProven, 0U};
+}
+
+template <typename Table>
+constexpr SafetyFinding check_confirmations(const Table& table) noexcept {
+    for (std::size_t i = 0U; i < table.confirmations.size(); ++i) {
+        const ConfirmRow& row = table.confirmations[i];
+        if (row.fault >= table.faults.size()) {
+            return {SafetyRule::kConfirmedFaultDeclared, i};
+        }
+        for (std::size_t earlier = 0U; earlier < i; ++earlier) {
+            if (table.confirmations[earlier].fault == row.fault) {
+                return {SafetyRule::kConfirmedOnce, i};
+            }
+        }
+        if (!is_valid(row.confirmation) || !is_valid(row.healing)) {
+            return {SafetyRule::kConfirmationInRange, i};
+        }
+    }
+    return {};
+}
+
+template <typename Table>
+constexpr SafetyFinding check_cycle(const Table& table) noexcept {
+    constexpr Duration kNothing{0};
+    const CycleRow& row = table.cycle;
+    if (Table::kCycleCount != 1U) {
+        return {SafetyRule::kCycleOnce, Table::kCycleCount};
+    }
+    if (row.stops.ss1_within <= kNothing || row.stops.ss2_within <= kNothing) {
+        return {SafetyRule::kStopBoundsInRange, 0U};
+    }
+    if (row.brakes.closes_within <= kNothing || !have_brakes_time(row.stops, row.brakes)) {
+        return {SafetyRule::kBrakesHaveTime, 0U};
+    }
+    if (row.watchdog.shortest < kNothing || row.watchdog.shortest >= row.watchdog.longest) {
+        return {SafetyRule::kWatchdogInRange, 0U};
+    }
+    if (row.torque_feedback <= kNothing) {
+        return {SafetyRule::kTorqueFeedbackInRange, 0U};
+    }
+    if (row.lateness_max < kNothing) {
+        return {SafetyRule::kLatenessInRange, 0U};
+    }
+    const bool are_declared = row.late_fault < table.faults.size() &&
+                              row.self_test_fault < table.faults.size() &&
+                              row.brake_fault < table.faults.size();
+    return {are_declared ? SafetyRule::kNone : SafetyRule::kCycleFaultDeclared, 0U};
+}
+
+template <typename Table>
+constexpr SafetyFinding check_safety(const Table& table) noexcept {
+    SafetyFinding finding = check_faults(table);
+    finding = finding.rule == SafetyRule::kNone ? check_supervision(table) : finding;
+    finding = finding.rule == SafetyRule::kNone ? check_confirmations(table) : finding;
+    return finding.rule == SafetyRule::kNone ? check_cycle(table) : finding;
+}
+
+}  // namespace detail
+
+/// A row as a compiler message shows it, 0 is the first of its kind.
+template <std::size_t kRow>
+struct TableRow {};
+
+/// Does not compile for a violated rule; the compiler prints it with the faulty component, fault or row.
+template <SafetyRule kRule, typename Faulty>
+struct SafetyTableIsSound : std::true_type {
+    static_assert(kRule != SafetyRule::kFaultsNumbered,
+                  "faults<...>() lists the enumerators 0, 1, ... of one enumeration, in this order");
+    static_assert(kRule != SafetyRule::kReactionKnown,
+                  "a reaction is an enumerator of mamori::safety::Reaction");
+    static_assert(kRule != SafetyRule::kSupervisedInTable,
+                  "supervise(...) names a component that no window of the table runs; remove it");
+    static_assert(kRule != SafetyRule::kSupervisedOnce, "a component has two supervise(...); keep one");
+    static_assert(kRule != SafetyRule::kAliveInRange,
+                  "alive(...) is out of range; 1 <= late_cycles <= expired_cycles");
+    static_assert(kRule != SafetyRule::kDeadlineInRange,
+                  "deadline(...) is out of range; 0 <= shortest <= longest and longest > 0");
+    static_assert(kRule != SafetyRule::kRaisedFaultDeclared,
+                  "raises(...) names a fault that faults<...>() does not declare");
+    static_assert(kRule != SafetyRule::kSomethingProven,
+                  "no supervise(...) without raises(...): nothing would permit the service of the watchdog");
+    static_assert(kRule != SafetyRule::kConfirmedFaultDeclared,
+                  "confirm(...) names a fault that faults<...>() does not declare");
+    static_assert(kRule != SafetyRule::kConfirmedOnce, "a fault has two confirm(...); keep one");
+    static_assert(kRule != SafetyRule::kConfirmationInRange,
+                  "confirm(...) is out of range; see is_valid(Confirmation) and is_valid(Healing)");
+    static_assert(kRule != SafetyRule::kCycleOnce, "a table has exactly one cycle(...)");
+    static_assert(kRule != SafetyRule::kStopBoundsInRange, "the bounds of SS1 and SS2 are positive");
+    static_assert(kRule != SafetyRule::kBrakesHaveTime,
+                  "the brakes close in a positive time, shorter than the bound of SS1");
+    static_assert(kRule != SafetyRule::kWatchdogInRange,
+                  "the window of the watchdog is out of range; 0 <= shortest < longest");
+    static_assert(kRule != SafetyRule::kTorqueFeedbackInRange, "the time of the torque feedback is positive");
+    static_assert(kRule != SafetyRule::kLatenessInRange, "the tolerated lateness is not negative");
+    static_assert(kRule != SafetyRule::kCycleFaultDeclared,
+                  "cycle(...) raises a fault that faults<...>() does not declare");
+};
+
+namespace detail {
+
+template <typename T>
+struct Shown {
+    using Type = T;
+};
+
+template <const auto& kTable, SafetyRule kRule, std::size_t kRow>
+constexpr auto show_faulty() noexcept {
+    if constexpr (kRule >= SafetyRule::kSupervisedOnce && kRule <= SafetyRule::kRaisedFaultDeclared) {
+        constexpr std::size_t kIndex =
+            find_component(kTable.components, kTable.supervised[kRow].watch.component);
+        return Shown<extension::ComponentAt<kTable, kIndex>>{};
+    } else if constexpr (kRule == SafetyRule::kConfirmedOnce || kRule == SafetyRule::kConfirmationInRange) {
+        return Shown<extension::FaultAt<kTable, kTable.confirmations[kRow].fault>>{};
+    } else if constexpr (kRule == SafetyRule::kFaultsNumbered) {
+        return Shown<extension::FaultAt<kTable, kRow>>{};
+    } else {
+        return Shown<TableRow<kRow>>{};
+    }
+}
+
+}  // namespace detail
+
+/// @tparam kTable constexpr table of safety::system(), of static storage. @return true; every other outcome
+/// does not compile.
+template <const auto& kTable>
+constexpr bool keeps_safety_rules() noexcept {
+    if constexpr (extension::keeps_rules<kTable>()) {
+        constexpr SafetyFinding kFinding = detail::check_safety(kTable);
+        using Faulty = typename decltype(detail::show_faulty<kTable, kFinding.rule, kFinding.row>())::Type;
+        return SafetyTableIsSound<kFinding.rule, Faulty>::value;
+    }
+    return false;
+}
+
+}  // namespace mamori::safety
+
+/// Rejects the constexpr table `table`, made by mamori::safety::system(), if it violates a rule.
+#define MAMORI_SAFETY_CHECK(table)                               \
+    static_assert(::mamori::safety::keeps_safety_rules<table>(), \
+                  "the system table violates the rule named above")
+
+#endif  // MAMORI_SAFETY_SAFETY_RULES_HPP

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What the safety cycle of a table remembers: supervision, faults, state, brakes and watchdog.
+///
+/// @satisfies SWR-CYC-003      Design: docs/design/safety_cycle.md#memory
+#ifndef MAMORI_SAFETY_SAFETY_STATE_HPP
+#define MAMORI_SAFETY_SAFETY_STATE_HPP
+
+#include <array>
+#include <cstddef>
+
+#include "mamori/kernel/base/span.hpp"
+#include "mamori/safety/assumptions/assumption_monitor.hpp"
+#include "mamori/safety/cycle/decision_flow.hpp"
+#include "mamori/safety/cycle/safety_part.hpp"
+#include "mamori/safety/cycle/safety_rules.hpp"
+#include "mamori/safety/redundancy/complement_stored.hpp"
+
+namespace mamori::safety {
+
+/// Memory for the table `kTable` of safety::system(), in static storage.
+template <const auto& kTable>
+struct SafetyStorage {
+    static_assert(keeps_safety_rules<kTable>());
+    ExecutionStorageFor<kTable> execution{};
+    std::array<FaultRecord, kTable.faults.size()> faults{};
+};
+
+/// All state of one safety cycle. A component of the table can refer to one that is declared before the table
+/// and defined after it:
+///
+///     extern mamori::safety::SafetyState safety;
+///     static Supervisor supervisor{safety};                    // derived from SafetyCycle
+///     static constexpr auto kSystem = mamori::safety::system(..., mamori::run(supervisor), ...);
+///     static mamori::safety::SafetyStorage<kSystem> storage;
+///     mamori::safety::SafetyState safety{storage, watchdog, &assumptions};
+///
+/// Thread safety: get_observer() as ExecutionSupervisor; all other members from the context of the cycle.
+/// Memory:        no heap; all state is here and in the storage, which must outlive this object.
+class SafetyState final {
+  public:
+    /// @param[in] storage     of the table. @param[in] watchdog must outlive this object.
+    /// @param[in] assumptions stepped in each cycle; nullptr: none. Must outlive this object.
+    template <const auto& kTable>
+    constexpr SafetyState(SafetyStorage<kTable>& storage, Watchdog& watchdog,
+                          AssumptionMonitor* assumptions = nullptr) noexcept
+        : rules_(kTable.cycle),
+          assumptions_(assumptions),
+          supervised_(kTable.supervised),
+          confirmations_(kTable.confirmations),
+          reactions_(kTable.reactions),
+          faults_(storage.faults),
+          machine_(kTable.cycle.stops),
+          brakes_(kTable.cycle.brakes),
+          gate_(watchdog, kTable.cycle.watchdog),
+          supervision_(storage.execution, kTable.cycle.lateness_max) {}
+    SafetyState(const SafetyState&) = delete;
+    SafetyState& operator=(const SafetyState&) = delete;
+
+    /// Supervision of the components: observer of the executive.
+    ExecutionSupervisor& get_observer() noexcept { return supervision_; }
+    const ExecutionSupervisor& get_supervision() const noexcept { return supervision_; }
+    const FaultRegister& get_faults() const noexcept { return faults_; }
+    SafeState get_state() const noexcept { return machine_.get_state(); }
+    /// Supervision of the cycle itself.
+    DecisionFlow& get_flow() noexcept { return flow_; }
+
+  private:
+    friend class SafetyCycle;
+
+    DecisionFlow flow_{};
+    const CycleRow& rules_;
+    AssumptionMonitor* assumptions_;
+    Span<const SuperviseRow> supervised_;
+    Span<const ConfirmRow> confirmations_;
+    Span<const ReactionRow> reactions_;
+    /// With its complement: it decides when the watchdog has to switch off what the software cannot.
+    ComplementStored<Duration> torque_despite_sto_for_{Duration{0}};
+    FaultRegister faults_;
+    SafeStateMachine machine_;
+    BrakeSequence brakes_;
+    WatchdogGate gate_;
+    ExecutionSupervisor supervision_;
+};
+
+}  // namespace mamori::safety
+
+#endif  // MAMORI_SAFETY_SAFETY_STATE_HPP

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// One table for a system and its safety: the parts of mamori::system(...), and those of safety_part.hpp.
+/// MAMORI_SAFETY_CHECK makes the compiler check it; SafetyState executes it.
+///
+///     static constexpr auto kSystem = mamori::safety::system(
+///         mamori::frame(1_ms),
+///         mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(monitor, supervisor)),
+///         mamori::faults<Fault::kOverspeed, Fault::kMonitorSilent, Fault::kReactionLate>(),
+///         mamori::react(Fault::kOverspeed, Reaction::kSs1, mamori::within(20_ms)), ...
+///         mamori::safety::confirm(Fault::kOverspeed, {2U}),
+///         mamori::safety::supervise(monitor, mamori::safety::alive(), mamori::safety::deadline(150_us),
+///                                   mamori::safety::raises(Fault::kMonitorSilent)),
+///         mamori::safety::supervise(supervisor, mamori::safety::alive(), mamori::safety::deadline(150_us)),
+///         mamori::safety::cycle(...));
+///     MAMORI_SAFETY_CHECK(kSystem);
+///
+/// @satisfies SWR-CYC-001      Design: docs/design/safety_cycle.md#the-table
+#ifndef MAMORI_SAFETY_SYSTEM_HPP
+#define MAMORI_SAFETY_SYSTEM_HPP
+
+#include <array>
+#include <cstddef>
+
+#include "mamori/kernel/system/system_extension.hpp"
+#include "mamori/safety/cycle/safety_part.hpp"
+
+namespace mamori::safety {
+
+/// A system table with the rows of the safety layer.
+template <typename PartTypes>
+struct SafetySystem : DescribedSystem<PartTypes> {
+    static constexpr std::size_t kFaultCount = PartTypes::Faults::kSize;
+    static constexpr std::size_t kCycleCount = extension::kPartCount<CyclePart, PartTypes>;
+    std::array<SuperviseRow, extension::kPartCount<SupervisePart, PartTypes>> supervised{};
+    std::array<ConfirmRow, extension::kPartCount<ConfirmPart, PartTypes>> confirmations{};
+    CycleRow cycle{};
+};
+
+template <typename Types>
+constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
+                        const SupervisePart& part) noexcept {
+    for (SuperviseRow& row : builder.table.supervised) {
+        if (row.watch.component == nullptr) {
+            row = part.row;
+            return;
+        }
+    }
+}
+template <typename Types>
+constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
+                        const ConfirmPart& part) noexcept {
+    for (ConfirmRow& row : builder.table.confirmations) {
+        if (row.fault == kNoFault) {
+            row = part.row;
+            return;
+        }
+    }
+}
+template <typename Types>
+constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
+                        const CyclePart& part) noexcept {
+    builder.table.cycle = part.row;
+}
+
+/// Builds the table as mamori::system() does. MAMORI_SAFETY_CHECK reports violated rules.
+template <typename... Parts>
+constexpr auto system(Frame frame_part, const Parts&... parts) noexcept {
+    return extension::build<SafetySystem>(frame_part, parts...);
+}
+
+}  // namespace mamori::safety
+
+#endif  // MAMORI_SAFETY_SYSTEM_HPP

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mamori/safety/cycle/safety_cycle.hpp"
+
+#include "mamori/safety/base/elapsed.hpp"
+#include "mamori/safety/reaction/reaction_table.hpp"
+
+namespace mamori::safety {
+namespace {
+
+/// A degraded mode shows in no output: it begins with the state.
+bool has_begun(Reaction reaction, const StopOutputs& applied) noexcept {
+    switch (reaction) {
+        case Reaction::kNone:
+        case Reaction::kDegrade:
+            return true;
+        case Reaction::kSs2:
+        case Reaction::kSs1:
+            return !applied.torque_enable || applied.stop_requested;
+        case Reaction::kSto:
+            break;
+    }
+    return !applied.torque_enable;
+}
+
+}  // namespace
+
+Status SafetyCycle::apply_table() noexcept {
+    for (const ConfirmRow& row : state_.confirmations_) {
+        Status result = state_.faults_.set_confirmation(row.fault, row.confirmation);
+        if (result == Status::kOk) {
+            result = state_.faults_.set_healing(row.fault, row.healing);
+        }
+        if (result != Status::kOk) {
+            return result;
+        }
+    }
+    for (const SuperviseRow& row : state_.supervised_) {
+        const Status result =
+            state_.supervision_.watch(state_.supervision_.find(*row.watch.component), row.watch.limits);
+        if (result != Status::kOk) {
+            return result;
+        }
+    }
+    return Status::kOk;
+}
+
+void SafetyCycle::decide(Instant now) noexcept {
+    state_.flow_.report(FlowPoint::kBegun, now);
+    const CycleInputs machine = read_inputs(now);
+    const GlobalStatus health = state_.supervision_.step(now);
+    const SafeState before = state_.machine_.get_state();
+    SafeStateInputs inputs{};
+    inputs.standstill = state_.brakes_.confirm(before, machine.is_standing, machine.are_brakes_closed, now);
+    inputs.self_test = combine(test(now), check_assumptions(now));
+    report_faults(inputs.self_test, now);
+    follow_reset(machine.reset_button);
+    const ReactionDemand demand = calc_reaction(state_.reactions_, state_.faults_);
+    measure_reaction(demand, machine.applied, now);
+    inputs.now = now;
+    inputs.demand = demand.reaction;
+    inputs.start_button = machine.start_button;
+    inputs.reset_button = machine.reset_button;
+    inputs.faults_cleared = state_.faults_.get_latched_count() == 0U;
+    inputs.start_permitted = machine.may_start && is_watchdog_served_;
+    inputs.lock_out = is_sto_unconfirmed(machine.has_torque, now);
+    const SafeState state = state_.machine_.step(inputs);
+    state_.flow_.report(FlowPoint::kJudged, now);
+    if (state != before) {
+        write_event(now, Severity::kInfo, CycleEvent::kStateEntered, static_cast<std::int64_t>(state));
+    }
+    if (demand.reaction > worst_reaction_) {
+        worst_reaction_ = demand.reaction;
+        write_event(now, Severity::kWarning, CycleEvent::kReactionBegun,
+                    static_cast<std::int64_t>(demand.reaction));
+    }
+    command(state, state_.brakes_.apply(state, now));
+    state_.flow_.report(FlowPoint::kCommanded, now);
+    const GlobalStatus flow = to_global_status(state_.flow_.supervisor.step(now));
+    serve_watchdog(calc_worst(health, flow), state_.machine_.is_consistent() && !inputs.lock_out, now);
+    stepped_at_ = now;
+    has_stepped_ = true;
+}
+
+SelfTestStatus SafetyCycle::test(Instant now) noexcept {
+    if (state_.machine_.get_state() != SafeState::kSelfTest) {
+        is_self_testing_ = false;
+        return SelfTestStatus::kPassed;
+    }
+    const bool is_first = !is_self_testing_;
+    is_self_testing_ = true;
+    return step_self_test(is_first, now);
+}
+
+/// One that is lost while the machine moves fails the self test too, and that locks out.
+SelfTestStatus SafetyCycle::check_assumptions(Instant now) noexcept {
+    if (state_.assumptions_ == nullptr) {
+        return SelfTestStatus::kPassed;
+    }
+    const bool had_failed = state_.assumptions_->get_status() == SelfTestStatus::kFailed;
+    const SelfTestStatus status = state_.assumptions_->step(now);
+    if (status == SelfTestStatus::kFailed && !had_failed) {
+        write_event(now, Severity::kFault, CycleEvent::kAssumptionFailed, state_.assumptions_->get_failed());
+    }
+    return status;
+}
+
+void SafetyCycle::report_faults(SelfTestStatus self_test, Instant now) noexcept {
+    for (std::size_t i = 0U; i < state_.faults_.get_capacity(); ++i) {
+        const auto fault = static_cast<FaultIndex>(i);
+        const bool was_latched = state_.faults_.is_latched(fault);
+        state_.faults_.report(fault, find_presence(fault, self_test, now), now);
+        if (!was_latched && state_.faults_.is_latched(fault)) {
+            write_event(now, Severity::kFault, CycleEvent::kFaultLatched, fault);
+        }
+    }
+    if (first_fault_ == kNoFault) {
+        first_fault_ = state_.faults_.get_first();
+    }
+}
+
+bool SafetyCycle::find_presence(FaultIndex fault, SelfTestStatus self_test, Instant now) noexcept {
+    bool result = is_present(fault);
+    result = result || (fault == state_.rules_.self_test_fault && self_test == SelfTestStatus::kFailed);
+    result = result || (fault == state_.rules_.late_fault && is_reaction_late_);
+    result = result || (fault == state_.rules_.brake_fault && state_.brakes_.is_overdue(now));
+    for (const SuperviseRow& row : state_.supervised_) {
+        if (row.fault == fault && is_expired(row)) {
+            result = true;
+        }
+    }
+    return result;
+}
+
+/// In the safe state each frame is judged anew: a component that still hangs expires again in every frame,
+/// one that runs again is silent no more, and the fault register alone remembers that it was.
+bool SafetyCycle::is_expired(const SuperviseRow& row) noexcept {
+    const std::size_t index = state_.supervision_.find(*row.watch.component);
+    const bool result = state_.supervision_.get_local_status(index) == LocalStatus::kExpired;
+    if (result && state_.machine_.get_state() == SafeState::kSafe) {
+        static_cast<void>(state_.supervision_.acknowledge(index));
+    }
+    return result;
+}
+
+/// A deliberate push acknowledges what is no longer present; the state machine judges the same push by
+/// itself.
+void SafetyCycle::follow_reset(bool reset_button) noexcept {
+    if (reset_edge_.step(reset_button)) {
+        // What is still present stays latched, and the machine then refuses the reset: no status to act on.
+        static_cast<void>(state_.faults_.acknowledge_all());
+    }
+}
+
+/// The stop of last resort has a confirmation too: the drives' own feedback. Memory that has changed by
+/// itself does not tell how long it has been missing, and stays so: that counts as too long.
+bool SafetyCycle::is_sto_unconfirmed(bool has_torque, Instant now) noexcept {
+    const Result<Duration> so_far = state_.torque_despite_sto_for_.read();
+    if (!so_far.has_value()) {
+        return true;
+    }
+    const bool is_contradicted =
+        has_torque && !calc_stop_outputs(state_.machine_.get_state()).torque_enable && has_stepped_;
+    const Duration elapsed = calc_elapsed(stepped_at_, now);
+    const Duration missing_for = is_contradicted ? so_far.get_value() + elapsed : Duration{0};
+    state_.torque_despite_sto_for_.set(missing_for);
+    return elapsed < Duration{0} || missing_for > state_.rules_.torque_feedback;
+}
+
+/// The outputs of the last frame show whether the reaction to the worst fault has begun.
+void SafetyCycle::measure_reaction(const ReactionDemand& demand, const StopOutputs& applied,
+                                   Instant now) noexcept {
+    if (demand.fault == kNoFault) {
+        measured_fault_ = kNoFault;
+        is_reaction_late_ = false;
+        return;
+    }
+    const Instant latched_at = state_.faults_.get_record(demand.fault).latched_at;
+    if (!has_begun(demand.reaction, applied)) {
+        is_reaction_late_ = is_reaction_late_ || is_over(latched_at, now, demand.within);
+        return;
+    }
+    is_reaction_late_ = false;
+    if (measured_fault_ != demand.fault) {
+        measured_fault_ = demand.fault;
+        const Duration time = calc_elapsed(latched_at, now);
+        longest_reaction_ = time > longest_reaction_ ? time : longest_reaction_;
+    }
+}
+
+void SafetyCycle::serve_watchdog(GlobalStatus health, bool is_trustworthy, Instant now) noexcept {
+    const WatchdogOutcome outcome = state_.gate_.step(now, health, is_trustworthy);
+    is_watchdog_served_ = outcome == WatchdogOutcome::kServiced;
+    const bool is_refused = outcome != WatchdogOutcome::kServiced && outcome != WatchdogOutcome::kHeldBack;
+    if (is_refused && !is_watchdog_refused_) {
+        write_event(now, Severity::kFault, CycleEvent::kWatchdogRefused, static_cast<std::int64_t>(health));
+    }
+    is_watchdog_refused_ = is_refused;
+}
+
+void SafetyCycle::write_event(Instant now, Severity severity, CycleEvent event,
+                              std::int64_t argument) noexcept {
+    if (log_ != nullptr) {
+        log_->write(now, severity, 0U, static_cast<std::uint16_t>(event), argument);
+    }
+}
+
+}  // namespace mamori::safety

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled by safety_system_compile_test.cpp with one defect at a time; without a defect it compiles.
+#include "mamori/safety/cycle/safety_rules.hpp"
+
+namespace {
+
+using namespace mamori::literals;
+using namespace mamori::safety;
+
+class Reader final : public mamori::Component {
+  public:
+    constexpr explicit Reader(const char* name) noexcept : Component(name) {}
+};
+class Decider final : public mamori::Component {
+  public:
+    constexpr Decider() noexcept : Component("decider") {}
+};
+Reader reader{"reader"};
+Reader stranger{"stranger"};
+Decider decider;
+
+enum class Fault { kFast, kSilent, kLate, kSelfTest, kUndeclared };
+enum class Stop { kAtOnce = 5 };
+
+#ifdef MAMORI_DEFECT_REACTION
+constexpr auto kAnswer = Stop::kAtOnce;
+#else
+constexpr auto kAnswer = Reaction::kSto;
+#endif
+#ifdef MAMORI_DEFECT_NUMBERS
+constexpr auto kFaults = mamori::faults<Fault::kSilent, Fault::kFast, Fault::kLate, Fault::kSelfTest>();
+#else
+constexpr auto kFaults = mamori::faults<Fault::kFast, Fault::kSilent, Fault::kLate, Fault::kSelfTest>();
+#endif
+
+constexpr StopBounds kStops{
+#ifdef MAMORI_DEFECT_SS2
+    0_ms,
+#else
+    1_ns,
+#endif
+#ifdef MAMORI_DEFECT_SS1
+    0_ms
+#else
+    100_ms
+#endif
+};
+constexpr BrakeLimits kBrakes{
+#if defined(MAMORI_DEFECT_BRAKES_SLOW)
+    100_ms,
+#elif defined(MAMORI_DEFECT_BRAKES_WITHOUT_TIME)
+    0_ms,
+#else
+    100_ms - 1_ns,
+#endif
+    true};
+constexpr WatchdogWindow kWindow{
+#if defined(MAMORI_DEFECT_WATCHDOG_NEGATIVE)
+    mamori::Duration{-1},
+#elif defined(MAMORI_DEFECT_WATCHDOG_EMPTY)
+    4_ms,
+#else
+    0_ms,
+#endif
+    4_ms};
+#ifdef MAMORI_DEFECT_FEEDBACK
+constexpr auto kFeedback = torque_feedback(0_ms);
+#else
+constexpr auto kFeedback = torque_feedback(1_ns);
+#endif
+#ifdef MAMORI_DEFECT_LATENESS
+constexpr auto kLateness = tolerated_lateness(mamori::Duration{-1});
+#else
+constexpr auto kLateness = tolerated_lateness(0_ms);
+#endif
+#ifdef MAMORI_DEFECT_LATE_FAULT
+constexpr auto kOnLate = on_late_reaction(raises(Fault::kUndeclared));
+#else
+constexpr auto kOnLate = on_late_reaction(raises(Fault::kLate));
+#endif
+#ifdef MAMORI_DEFECT_SELF_TEST_FAULT
+constexpr auto kOnFailed = on_failed_self_test(raises(Fault::kUndeclared));
+#else
+constexpr auto kOnFailed = on_failed_self_test(raises(Fault::kSelfTest));
+#endif
+#ifdef MAMORI_DEFECT_BRAKE_FAULT
+constexpr auto kOnBrakes = on_unconfirmed_brakes(raises(Fault::kUndeclared));
+#else
+constexpr auto kOnBrakes = on_unconfirmed_brakes(raises(Fault::kFast));
+#endif
+#if defined(MAMORI_DEFECT_NO_STOPS)
+constexpr auto kCycle = cycle(kBrakes, kWindow, kFeedback, kLateness, kOnLate, kOnFailed, kOnBrakes);
+#elif defined(MAMORI_DEFECT_NO_BRAKES)
+constexpr auto kCycle = cycle(kStops, kWindow, kFeedback, kLateness, kOnLate, kOnFailed, kOnBrakes);
+#elif defined(MAMORI_DEFECT_NO_WATCHDOG)
+constexpr auto kCycle = cycle(kStops, kBrakes, kFeedback, kLateness, kOnLate, kOnFailed, kOnBrakes);
+#elif defined(MAMORI_DEFECT_NO_FEEDBACK)
+constexpr auto kCycle = cycle(kStops, kBrakes, kWindow, kLateness, kOnLate, kOnFailed, kOnBrakes);
+#elif defined(MAMORI_DEFECT_NO_LATENESS)
+constexpr auto kCycle = cycle(kStops, kBrakes, kWindow, kFeedback, kOnLate, kOnFailed, kOnBrakes);
+#elif defined(MAMORI_DEFECT_NO_LATE_FAULT)
+constexpr auto kCycle = cycle(kStops, kBrakes, kWindow, kFeedback, kLateness, kOnFailed, kOnBrakes);
+#elif defined(MAMORI_DEFECT_NO_SELF_TEST_FAULT)
+constexpr auto kCycle = cycle(kStops, kBrakes, kWindow, kFeedback, kLateness, kOnLate, kOnBrakes);
+#elif defined(MAMORI_DEFECT_NO_BRAKE_FAULT)
+constexpr auto kCycle = cycle(kStops, kBrakes, kWindow, kFeedback, kLateness, kOnLate, kOnFailed);
+#elif defined(MAMORI_DEFECT_BOUNDS_TWICE)
+constexpr auto kCycle =
+    cycle(kStops, kBrakes, kStops, kWindow, kFeedback, kLateness, kOnLate, kOnFailed, kOnBrakes);
+#else
+constexpr auto kCycle = cycle(kStops, kBrakes, kWindow, kFeedback, kLateness, kOnLate, kOnFailed, kOnBrakes);
+#endif
+
+constexpr auto kSystem = mamori::safety::system(
+    mamori::frame(1_ms),
+    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(reader, decider)), kFaults,
+#ifndef MAMORI_DEFECT_UNANSWERED
+    mamori::react(Fault::kFast, kAnswer, mamori::within(1_ms)),
+#endif
+    mamori::react(Fault::kSilent, kAnswer, mamori::within(1_ms)),
+    mamori::react(Fault::kLate, kAnswer, mamori::within(1_ms)),
+    mamori::react(Fault::kSelfTest, kAnswer, mamori::within(1_ms)),
+#ifdef MAMORI_DEFECT_STRANGER
+    supervise(stranger, alive(), deadline(1_ms)),
+#endif
+#ifdef MAMORI_DEFECT_TWICE
+    supervise(reader, alive(), deadline(1_ms)),
+#endif
+#if defined(MAMORI_DEFECT_ALIVE)
+    supervise(reader, alive(3U, 2U), deadline(1_ms), raises(Fault::kSilent)),
+#elif defined(MAMORI_DEFECT_DEADLINE)
+    supervise(reader, alive(), deadline(0_ms), raises(Fault::kSilent)),
+#elif defined(MAMORI_DEFECT_RAISED)
+    supervise(reader, alive(), deadline(1_ms), raises(Fault::kUndeclared)),
+#else
+    supervise(reader, alive(), deadline(1_ms), raises(Fault::kSilent)),
+#endif
+#ifdef MAMORI_DEFECT_NOTHING_PROVEN
+    supervise(decider, alive(), deadline(1_ms), raises(Fault::kSilent)),
+#else
+    supervise(decider, alive(), deadline(1_ms)),
+#endif
+#ifdef MAMORI_DEFECT_CONFIRM_UNDECLARED
+    confirm(Fault::kUndeclared, {2U}),
+#endif
+#ifdef MAMORI_DEFECT_CONFIRM_TWICE
+    confirm(Fault::kFast, {2U}),
+#endif
+#if defined(MAMORI_DEFECT_CONFIRM_NEVER)
+    confirm(Fault::kFast, {0U}),
+#elif defined(MAMORI_DEFECT_HEALING)
+    confirm(Fault::kFast, {2U}, {0U}),
+#else
+    confirm(Fault::kFast, {2U}, {3U}),
+#endif
+#ifdef MAMORI_DEFECT_CYCLE_TWICE
+    kCycle,
+#endif
+#ifdef MAMORI_DEFECT_NO_CYCLE
+    mamori::trace_hash()
+#else
+    kCycle
+#endif
+);
+MAMORI_SAFETY_CHECK(kSystem);
+
+}  // namespace

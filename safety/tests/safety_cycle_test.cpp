@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the cycle asks the machine in a fixed order, executes all rows of its table, and finds a reaction
+// that does not reach the outputs. Method: a machine made here, frame after frame; outputs that follow the
+// commands or ignore them.
+#include "mamori/safety/cycle/safety_cycle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mamori/trace/verifies.hpp"
+
+namespace mamori::safety {
+namespace {
+
+using namespace literals;
+using namespace verification;
+
+enum class Fault : FaultIndex { kFast, kSlip, kSilent, kLate, kSelfTest, kBrake };
+constexpr std::size_t kFaultCount = 6U;
+constexpr Duration kFrame = 1_ms;
+constexpr Duration kTorqueFeedback = 5_ms;
+
+class Watched final : public Component {
+  public:
+    constexpr explicit Watched(const char* name) noexcept : Component(name) {}
+};
+
+class FakeMachine final : public SafetyCycle {
+  public:
+    FakeMachine(SafetyState& state, EventLog& log) noexcept : SafetyCycle("machine", state, &log) {}
+
+    CycleInputs inputs{};
+    std::array<bool, kFaultCount> present{};
+    SelfTestStatus self_test{SelfTestStatus::kPassed};
+    SafeState commanded{SafeState::kLockedOut};
+    StopOutputs outputs{};
+    std::vector<std::string> calls{};
+
+  private:
+    CycleInputs read_inputs(Instant) noexcept override {
+        calls.emplace_back("inputs");
+        return inputs;
+    }
+    SelfTestStatus step_self_test(bool is_first, Instant) noexcept override {
+        calls.emplace_back(is_first ? "first self test" : "self test");
+        // A pass counts after a running test.
+        return is_first && self_test == SelfTestStatus::kPassed ? SelfTestStatus::kRunning : self_test;
+    }
+    bool is_present(FaultIndex fault) noexcept override {
+        calls.emplace_back("fault " + std::to_string(fault));
+        return present[fault];
+    }
+    void command(SafeState state, const StopOutputs& wanted) noexcept override {
+        calls.emplace_back("command");
+        commanded = state;
+        outputs = wanted;
+    }
+};
+
+Watched g_guard{"guard"};
+Watched g_controller{"controller"};
+constexpr auto kSystem = safety::system(
+    frame(kFrame), window("all", 0_us, kFrame, budget(kFrame), run(g_guard, g_controller)),
+    faults<Fault::kFast, Fault::kSlip, Fault::kSilent, Fault::kLate, Fault::kSelfTest, Fault::kBrake>(),
+    react(Fault::kFast, Reaction::kSto, within(2_ms)), react(Fault::kSlip, Reaction::kSs1, within(3_ms)),
+    react(Fault::kSilent, Reaction::kSs2, within(2_ms)), react(Fault::kLate, Reaction::kSto, within(1_ms)),
+    react(Fault::kSelfTest, Reaction::kSto, within(2_ms)), react(Fault::kBrake, Reaction::kSto, within(2_ms)),
+    confirm(Fault::kSlip, {3U}, {5U}), supervise(g_guard, alive(2U, 3U), deadline(100_us)),
+    supervise(g_controller, alive(2U, 3U), deadline(100_us), raises(Fault::kSilent)),
+    cycle(StopBounds{20_ms, 20_ms}, BrakeLimits{10_ms, true}, WatchdogWindow{500_us, 4_ms},
+          torque_feedback(kTorqueFeedback), tolerated_lateness(50_us), on_late_reaction(raises(Fault::kLate)),
+          on_failed_self_test(raises(Fault::kSelfTest)), on_unconfirmed_brakes(raises(Fault::kBrake))));
+MAMORI_SAFETY_CHECK(kSystem);
+
+class SpyWatchdog final : public Watchdog {
+  public:
+    Status service(Instant) noexcept override {
+        ++services;
+        return Status::kOk;
+    }
+    int services{0};
+};
+
+class FakeCheck final : public AssumptionCheck {
+  public:
+    SelfTestStatus check() noexcept override { return answer; }
+    SelfTestStatus answer{SelfTestStatus::kPassed};
+};
+FakeCheck g_check;
+enum class Assumption : AssumptionIndex { kOnly, kCount };
+constexpr std::array kAssumptions{assume(Assumption::kOnly, "only", g_check, 1_s)};
+static_assert(checks_all<kAssumptions, Assumption::kCount>());
+
+class SafetyCycleTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        g_check.answer = SelfTestStatus::kPassed;
+        ASSERT_EQ(sut_.initialize(), Status::kOk);
+        sut_.inputs.is_standing = true;
+        sut_.inputs.are_brakes_closed = true;
+        sut_.inputs.may_start = true;
+    }
+
+    /// One frame. The outputs follow the commands in the next frame unless `is_obeying_` is false.
+    SafeState step() {
+        sut_.calls.clear();
+        if (is_guard_running_) {
+            state_.get_observer().get_records()[0U].note_run(now_, now_ + 10_us);
+        }
+        if (is_controller_running_) {
+            state_.get_observer().get_records()[1U].note_run(now_, now_ + 10_us);
+        }
+        EXPECT_EQ(sut_.on_execute({0, now_}), Status::kOk);
+        if (is_obeying_) {
+            sut_.inputs.applied = sut_.outputs;
+            sut_.inputs.has_torque = sut_.outputs.torque_enable;
+            sut_.inputs.are_brakes_closed = !sut_.outputs.brake_release;
+        }
+        now_ = now_ + kFrame;
+        return sut_.get_state();
+    }
+    void operate() {
+        for (int i = 0; i < 5 && sut_.get_state() != SafeState::kStandby; ++i) {
+            step();
+        }
+        sut_.inputs.start_button = true;
+        ASSERT_EQ(step(), SafeState::kOperational);
+        sut_.inputs.start_button = false;
+        ASSERT_EQ(step(), SafeState::kOperational);
+        sut_.inputs.is_standing = false;
+    }
+    void set_present(Fault fault, bool is_present) {
+        sut_.present[static_cast<std::size_t>(fault)] = is_present;
+    }
+    bool is_latched(Fault fault) const {
+        return state_.get_faults().is_latched(static_cast<FaultIndex>(fault));
+    }
+
+    SafetyStorage<kSystem> storage_;
+    SpyWatchdog watchdog_;
+    AssumptionMonitor assumptions_{kAssumptions};
+    SafetyState state_{storage_, watchdog_, &assumptions_};
+    std::array<Event, 32U> events_{};
+    EventLog log_{events_};
+    FakeMachine sut_{state_, log_};
+    Instant now_{};
+    bool is_guard_running_{true};
+    bool is_controller_running_{true};
+    bool is_obeying_{true};
+};
+
+// ---- The table ----
+
+TEST_F(SafetyCycleTest, TheTableHoldsEverythingThatIsStated) {
+    verifies("SWR-CYC-001");
+    EXPECT_EQ(kSystem.windows.size(), 1U);
+    EXPECT_EQ(kSystem.faults.size(), kFaultCount);
+    EXPECT_EQ(kSystem.reactions[1U].within, 3_ms);
+    ASSERT_EQ(kSystem.confirmations.size(), 1U);
+    EXPECT_EQ(kSystem.confirmations[0U].fault, static_cast<FaultIndex>(Fault::kSlip));
+    EXPECT_EQ(kSystem.confirmations[0U].healing.cycles, 5U);
+    ASSERT_EQ(kSystem.supervised.size(), 2U);
+    EXPECT_EQ(kSystem.supervised[0U].watch.component, &g_guard);
+    EXPECT_EQ(kSystem.supervised[0U].fault, kNoFault);
+    EXPECT_EQ(kSystem.supervised[1U].watch.limits.deadline.longest, 100_us);
+    EXPECT_EQ(kSystem.supervised[1U].fault, static_cast<FaultIndex>(Fault::kSilent));
+    EXPECT_EQ(kSystem.cycle.brakes.closes_within, 10_ms);
+    EXPECT_EQ(kSystem.cycle.late_fault, static_cast<FaultIndex>(Fault::kLate));
+    EXPECT_EQ(kSystem.cycle.self_test_fault, static_cast<FaultIndex>(Fault::kSelfTest));
+}
+
+// ---- Order ----
+
+TEST_F(SafetyCycleTest, TheMachineIsAskedInAFixedOrder) {
+    verifies("SWR-CYC-003");
+    const std::vector<std::string> faults{"fault 0", "fault 1", "fault 2", "fault 3", "fault 4", "fault 5"};
+    const auto expect_calls = [&](std::vector<std::string> before) {
+        before.insert(before.end(), faults.begin(), faults.end());
+        before.emplace_back("command");
+        EXPECT_EQ(sut_.calls, before);
+    };
+
+    step();
+    expect_calls({"inputs", "first self test"});
+    step();
+    expect_calls({"inputs", "self test"});
+    EXPECT_EQ(sut_.commanded, SafeState::kStandby);
+    step();
+    expect_calls({"inputs"});
+}
+
+TEST_F(SafetyCycleTest, AFaultIsAnsweredInTheSameCycle) {
+    verifies("SWR-CYC-003", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    ASSERT_TRUE(sut_.outputs.torque_enable);
+    set_present(Fault::kFast, true);
+
+    step();
+    EXPECT_EQ(sut_.commanded, SafeState::kSafe);
+    EXPECT_EQ(sut_.outputs, StopOutputs{});
+    EXPECT_EQ(sut_.get_first_fault(), static_cast<FaultIndex>(Fault::kFast));
+    EXPECT_EQ(sut_.get_reaction(), Reaction::kSto);
+}
+
+TEST_F(SafetyCycleTest, ASecondInitialisationIsRejected) {
+    verifies("SWR-CYC-003", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_EQ(sut_.on_initialize(), Status::kPreconditionNotMet);
+}
+
+// ---- Rows of the table ----
+
+TEST_F(SafetyCycleTest, ConfirmationAndHealingAreThoseOfTheTable) {
+    verifies("SWR-CYC-004", Technique::kBoundaryValues);
+    operate();
+    set_present(Fault::kSlip, true);
+    EXPECT_EQ(step(), SafeState::kOperational);
+    EXPECT_EQ(step(), SafeState::kOperational);
+    EXPECT_EQ(step(), SafeState::kProtectiveStopSs1);
+
+    set_present(Fault::kSlip, false);
+    sut_.inputs.is_standing = true;
+    for (int i = 0; i < 4; ++i) {
+        step();
+    }
+    sut_.inputs.reset_button = true;
+    step();
+    EXPECT_FALSE(is_latched(Fault::kSlip)) << "healed in the fifth cycle";
+}
+
+TEST_F(SafetyCycleTest, AFaultThatHasNotHealedStaysLatched) {
+    verifies("SWR-CYC-004", Technique::kBoundaryValues, Polarity::kViolation);
+    operate();
+    set_present(Fault::kSlip, true);
+    step();
+    step();
+    step();
+    set_present(Fault::kSlip, false);
+    for (int i = 0; i < 3; ++i) {
+        step();
+    }
+    sut_.inputs.reset_button = true;
+    step();
+    EXPECT_TRUE(is_latched(Fault::kSlip)) << "four cycles of five";
+}
+
+TEST_F(SafetyCycleTest, AnExpiredComponentRaisesItsFault) {
+    verifies("SWR-CYC-004", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    is_controller_running_ = false;
+    EXPECT_EQ(step(), SafeState::kOperational);
+    EXPECT_EQ(step(), SafeState::kOperational);
+    const int services = watchdog_.services;
+
+    EXPECT_EQ(step(), SafeState::kProtectiveStopSs2);
+    EXPECT_TRUE(is_latched(Fault::kSilent));
+    EXPECT_EQ(watchdog_.services, services + 1) << "its failure is a fault, not a matter of the watchdog";
+}
+
+TEST_F(SafetyCycleTest, AnExpiredComponentWithoutAFaultStopsTheService) {
+    verifies("SWR-CYC-006", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    is_guard_running_ = false;
+    step();
+    const int services = watchdog_.services;
+
+    step();
+    step();
+    EXPECT_EQ(watchdog_.services, services);
+    EXPECT_EQ(state_.get_faults().get_latched_count(), 0U);
+}
+
+TEST_F(SafetyCycleTest, AHealthyCycleIsServedEachFrame) {
+    verifies("SWR-CYC-006");
+    for (int i = 1; i <= 20; ++i) {
+        step();
+        ASSERT_EQ(watchdog_.services, i);
+    }
+}
+
+TEST_F(SafetyCycleTest, ASkippedStepStopsTheServiceForGood) {
+    verifies("SWR-CYC-006", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    state_.get_flow().report(FlowPoint::kJudged, now_);
+    const int services = watchdog_.services;
+
+    for (int i = 0; i < 5; ++i) {
+        step();
+    }
+    EXPECT_EQ(watchdog_.services, services);
+}
+
+TEST_F(SafetyCycleTest, AFailedSelfTestOrAssumptionIsItsFault) {
+    verifies("SWR-CYC-004", Technique::kFaultInjection, Polarity::kViolation);
+    sut_.self_test = SelfTestStatus::kFailed;
+    step();
+    EXPECT_EQ(step(), SafeState::kLockedOut);
+    EXPECT_TRUE(is_latched(Fault::kSelfTest));
+}
+
+TEST_F(SafetyCycleTest, AnAssumptionThatIsLostInOperationLocksOut) {
+    verifies("SWR-CYC-004", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    g_check.answer = SelfTestStatus::kFailed;
+
+    EXPECT_EQ(step(), SafeState::kLockedOut);
+    EXPECT_TRUE(is_latched(Fault::kSelfTest));
+}
+
+TEST_F(SafetyCycleTest, BrakesThatConfirmTheirClosingInTimeAreNoFault) {
+    verifies("SWR-CYC-004", Technique::kBoundaryValues);
+    sut_.inputs.are_brakes_closed = false;
+    is_obeying_ = false;
+    for (int i = 0; i <= 10; ++i) {
+        step();
+    }
+    sut_.inputs.are_brakes_closed = true;
+    step();
+    step();
+    EXPECT_FALSE(is_latched(Fault::kBrake));
+}
+
+TEST_F(SafetyCycleTest, BrakesThatDoNotConfirmTheirClosingInTimeAreAFault) {
+    verifies("SWR-CYC-004", Technique::kFaultInjection, Polarity::kViolation);
+    sut_.inputs.are_brakes_closed = false;
+    is_obeying_ = false;
+    for (int i = 0; i <= 10; ++i) {
+        step();
+        ASSERT_FALSE(is_latched(Fault::kBrake)) << i;
+    }
+    step();
+    EXPECT_TRUE(is_latched(Fault::kBrake)) << "told at 0 ms, due at 10 ms";
+}
+
+// ---- Reaction time ----
+
+TEST_F(SafetyCycleTest, TheTimeOfAReactionIsMeasuredAtTheOutputs) {
+    verifies("SWR-CYC-005");
+    operate();
+    set_present(Fault::kFast, true);
+    step();
+    EXPECT_EQ(sut_.get_longest_reaction(), Duration{0});
+
+    step();
+    EXPECT_EQ(sut_.get_longest_reaction(), kFrame);
+    EXPECT_FALSE(is_latched(Fault::kLate));
+}
+
+TEST_F(SafetyCycleTest, AReactionAtItsBoundIsInTime) {
+    verifies("SWR-CYC-005", Technique::kBoundaryValues);
+    operate();
+    is_obeying_ = false;
+    set_present(Fault::kFast, true);
+    step();
+    step();
+    is_obeying_ = true;
+    sut_.inputs.applied = {};
+    sut_.inputs.has_torque = false;
+
+    step();
+    EXPECT_EQ(sut_.get_longest_reaction(), 2_ms);
+    EXPECT_FALSE(is_latched(Fault::kLate));
+}
+
+TEST_F(SafetyCycleTest, AReactionThatTheOutputsDoNotShowInTimeIsAFault) {
+    verifies("SWR-CYC-005", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    is_obeying_ = false;
+    for (int i = 0; i < 3; ++i) {
+        set_present(Fault::kSlip, true);
+        step();
+    }
+    ASSERT_EQ(sut_.get_state(), SafeState::kProtectiveStopSs1);
+    // Latched at 0 ms; bound 3 ms; found after it, in the frame that then reports it.
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_EQ(step(), SafeState::kProtectiveStopSs1) << i;
+    }
+    EXPECT_FALSE(is_latched(Fault::kLate));
+
+    EXPECT_EQ(step(), SafeState::kSafe);
+    EXPECT_TRUE(is_latched(Fault::kLate));
+    EXPECT_FALSE(sut_.outputs.torque_enable);
+}
+
+TEST_F(SafetyCycleTest, EachKindOfStopShowsInTheOutputs) {
+    verifies("SWR-CYC-005", Technique::kEquivalenceClasses, Polarity::kViolation);
+    // SS2 and SS1 are begun by a stop or no torque; STO by no torque only.
+    struct Case {
+        Fault fault;
+        StopOutputs applied;
+        bool has_begun;
+    };
+    const std::array<Case, 8U> cases{Case{Fault::kSilent, {true, true, true, true}, true},
+                                     Case{Fault::kSilent, {true, true, true, false}, true},
+                                     Case{Fault::kSilent, {true, true, false, false}, false},
+                                     Case{Fault::kSlip, {true, true, true, false}, true},
+                                     Case{Fault::kSlip, {true, true, false, true}, false},
+                                     Case{Fault::kSlip, {false, false, false, false}, true},
+                                     Case{Fault::kFast, {true, true, true, true}, false},
+                                     Case{Fault::kFast, {false, true, false, false}, true}};
+    for (const Case& one : cases) {
+        SafetyStorage<kSystem> storage;
+        SafetyState state{storage, watchdog_};
+        FakeMachine machine{state, log_};
+        ASSERT_EQ(machine.initialize(), Status::kOk);
+        machine.inputs.applied = one.applied;
+        machine.present[static_cast<std::size_t>(one.fault)] = true;
+        bool is_late = false;
+        for (int i = 0; i < 12; ++i) {
+            now_ = now_ + kFrame;
+            static_cast<void>(machine.on_execute({0, now_}));
+            is_late = is_late || state.get_faults().is_latched(static_cast<FaultIndex>(Fault::kLate));
+        }
+        EXPECT_EQ(is_late, !one.has_begun) << static_cast<int>(one.fault);
+    }
+}
+
+// ---- Confirmation of torque off ----
+
+TEST_F(SafetyCycleTest, TorqueThatLastsAfterStoLocksOutAndStopsTheService) {
+    verifies("SWR-CYC-007", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    set_present(Fault::kFast, true);
+    step();
+    is_obeying_ = false;
+    sut_.inputs.applied = {};
+    sut_.inputs.has_torque = true;
+    for (std::int64_t i = 1; i <= kTorqueFeedback.ns / kFrame.ns; ++i) {
+        ASSERT_EQ(step(), SafeState::kSafe) << i;
+    }
+    const int services = watchdog_.services;
+
+    EXPECT_EQ(step(), SafeState::kLockedOut);
+    EXPECT_EQ(watchdog_.services, services);
+}
+
+TEST_F(SafetyCycleTest, TorqueThatEndsInTimeConfirmsTheStop) {
+    verifies("SWR-CYC-007", Technique::kBoundaryValues);
+    operate();
+    set_present(Fault::kFast, true);
+    step();
+    is_obeying_ = false;
+    sut_.inputs.applied = {};
+    sut_.inputs.has_torque = true;
+    for (std::int64_t i = 1; i <= kTorqueFeedback.ns / kFrame.ns; ++i) {
+        step();
+    }
+    sut_.inputs.has_torque = false;
+
+    for (int i = 0; i < 20; ++i) {
+        ASSERT_EQ(step(), SafeState::kSafe);
+    }
+}
+
+TEST_F(SafetyCycleTest, AClockThatRunsBackwardsLocksOut) {
+    verifies("SWR-CYC-007", Technique::kErrorGuessing, Polarity::kViolation);
+    operate();
+    now_ = now_ - 10_ms;
+
+    EXPECT_EQ(step(), SafeState::kLockedOut);
+}
+
+}  // namespace
+}  // namespace mamori::safety

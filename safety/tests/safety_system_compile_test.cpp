@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the compiler rejects a safety table without meaning, names the faulty element and the rule.
+// Method: the build's own compiler is run on one source, without and with a defect.
+#include <gtest/gtest.h>
+
+#include "compile_fail/compiler.hpp"
+#include "mamori/trace/verifies.hpp"
+
+namespace mamori::safety {
+namespace {
+
+using namespace verification;
+
+struct Defect {
+    const char* macro;
+    const char* faulty;    ///< the element, as the compiler prints it
+    const char* sentence;  ///< part of the rule
+};
+
+class SafetySystemCompileTest : public ::testing::TestWithParam<Defect> {};
+
+TEST(SafetySystemCompileTest, ATableWithoutADefectCompiles) {
+    verifies("SWR-CYC-002");
+    const rig::Compilation result = rig::compile("safety_system_source.cpp", "MAMORI_DEFECT_NONE");
+
+    EXPECT_EQ(result.exit_status, 0) << result.messages;
+}
+
+TEST_P(SafetySystemCompileTest, IsRejectedWithTheFaultyElement) {
+    verifies("SWR-CYC-002", Technique::kBoundaryValues, Polarity::kViolation);
+    const rig::Compilation result =
+        rig::compile("safety_system_source.cpp", std::string{"MAMORI_DEFECT_"} + GetParam().macro);
+
+    EXPECT_EQ(result.exit_status, 1) << result.messages;
+    EXPECT_TRUE(result.names(GetParam().faulty)) << result.messages;
+    EXPECT_TRUE(result.names(GetParam().sentence)) << result.messages;
+}
+
+constexpr Defect kDefects[] = {
+    {"UNANSWERED", "Fault::kFast", "a declared fault has a reaction"},
+    {"NUMBERS", "Fault::kSilent", "lists the enumerators 0, 1, ..."},
+    {"REACTION", "TableRow<0>", "an enumerator of mamori::safety::Reaction"},
+    {"STRANGER", "TableRow<0>", "no window of the table runs"},
+    {"TWICE", "Reader", "two supervise(...)"},
+    {"ALIVE", "Reader", "alive(...) is out of range"},
+    {"DEADLINE", "Reader", "deadline(...) is out of range"},
+    {"RAISED", "Reader", "raises(...) names a fault"},
+    {"NOTHING_PROVEN", "kSomethingProven", "nothing would permit the service of the watchdog"},
+    {"CONFIRM_UNDECLARED", "TableRow<0>", "confirm(...) names a fault"},
+    {"CONFIRM_TWICE", "Fault::kFast", "two confirm(...)"},
+    {"CONFIRM_NEVER", "Fault::kFast", "confirm(...) is out of range"},
+    {"HEALING", "Fault::kFast", "confirm(...) is out of range"},
+    {"NO_CYCLE", "kCycleOnce", "exactly one cycle(...)"},
+    {"CYCLE_TWICE", "kCycleOnce", "exactly one cycle(...)"},
+    {"NO_STOPS", "cycle", "states its StopBounds once"},
+    {"NO_BRAKES", "cycle", "states its BrakeLimits once"},
+    {"NO_WATCHDOG", "cycle", "states its WatchdogWindow once"},
+    {"NO_FEEDBACK", "cycle", "states torque_feedback(...) once"},
+    {"NO_LATENESS", "cycle", "states tolerated_lateness(...) once"},
+    {"NO_LATE_FAULT", "cycle", "states on_late_reaction(...) once"},
+    {"NO_SELF_TEST_FAULT", "cycle", "states on_failed_self_test(...) once"},
+    {"NO_BRAKE_FAULT", "cycle", "states on_unconfirmed_brakes(...) once"},
+    {"BRAKE_FAULT", "kCycleFaultDeclared", "does not declare"},
+    {"BOUNDS_TWICE", "cycle", "states its StopBounds once"},
+    {"SS2", "kStopBoundsInRange", "bounds of SS1 and SS2 are positive"},
+    {"SS1", "kStopBoundsInRange", "bounds of SS1 and SS2 are positive"},
+    {"BRAKES_SLOW", "kBrakesHaveTime", "shorter than the bound of SS1"},
+    {"BRAKES_WITHOUT_TIME", "kBrakesHaveTime", "shorter than the bound of SS1"},
+    {"WATCHDOG_NEGATIVE", "kWatchdogInRange", "window of the watchdog is out of range"},
+    {"WATCHDOG_EMPTY", "kWatchdogInRange", "window of the watchdog is out of range"},
+    {"FEEDBACK", "kTorqueFeedbackInRange", "torque feedback is positive"},
+    {"LATENESS", "kLatenessInRange", "lateness is not negative"},
+    {"LATE_FAULT", "kCycleFaultDeclared", "does not declare"},
+    {"SELF_TEST_FAULT", "kCycleFaultDeclared", "does not declare"},
+};
+INSTANTIATE_TEST_SUITE_P(EachDefect, SafetySystemCompileTest, ::testing::ValuesIn(kDefects),
+                         [](const auto& one) { return std::string{one.param.macro}; });
+
+}  // namespace
+}  // namespace mamori::safety
