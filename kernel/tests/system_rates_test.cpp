@@ -421,6 +421,14 @@ TEST(SystemRatesTest, AReactionNamesModesOfTheTable) {
     EXPECT_EQ(check_mask(0U), (Rules{Rule::kFaultWithoutReaction, Rule::kReactionInUnknownMode}));
     EXPECT_EQ(check_mask(3U, work, halt), Rules{});
     EXPECT_EQ(check_mask(7U, work, halt), Rules{Rule::kReactionInUnknownMode});
+    const std::array<SystemModeRow, kSystemModeMax> most{};
+    SystemView view{};
+    view.modes.modes = most;
+    ReactionRow row{};
+    row.modes = ModeMask{1U} << 31U;
+    EXPECT_TRUE(detail::has_known_modes(view, row)) << "the last of 32 modes";
+    view.modes.modes = {most.data(), most.size() - 1U};
+    EXPECT_FALSE(detail::has_known_modes(view, row));
 }
 
 // Tables made at run time.

@@ -200,7 +200,9 @@ TEST(ArmGuardsTest, OneToNineAxesAreCompared) {
 TEST(ArmGuardsTest, AnotherNumberOfAxesGoesToTheAssertionHandler) {
     verifies("SWR-ARM-009", Technique::kBoundaryValues, Polarity::kViolation);
     constexpr std::array<double, 10U> kMany{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
-    constexpr std::array<AxisRange, 10U> kManyRanges{};
+    std::array<AxisRange, 10U> many_ranges{};
+    many_ranges.fill({-1.0, 1.0});
+    EXPECT_FALSE(are_valid(many_ranges));
     const AxisValues six{kLimits.data(), 6U};
 
     EXPECT_FALSE(are_valid(AxisValues{}) || are_valid(Span<const AxisRange>{}) || are_valid(kMany));
@@ -208,7 +210,7 @@ TEST(ArmGuardsTest, AnotherNumberOfAxesGoesToTheAssertionHandler) {
     EXPECT_CHECK_FAILS(static_cast<void>(calc_jumps(kZero, kZero, six)), "guards.cpp", 2);
     EXPECT_CHECK_FAILS(static_cast<void>(calc_jumps(kMany, kMany, kMany)), "guards.cpp", 2);
     EXPECT_CHECK_FAILS(static_cast<void>(calc_position_violations(six, kRanges)), "guards.cpp", 3);
-    EXPECT_CHECK_FAILS(static_cast<void>(calc_position_violations(kMany, kManyRanges)), "guards.cpp", 3);
+    EXPECT_CHECK_FAILS(static_cast<void>(calc_position_violations(kMany, many_ranges)), "guards.cpp", 3);
     EXPECT_CHECK_FAILS(static_cast<void>(calc_speed_violations(kMany, kMany)), "guards.cpp", 4);
     EXPECT_CHECK_FAILS(static_cast<void>(calc_speed_violations(kZero, six)), "guards.cpp", 2);
     EXPECT_CHECK_FAILS((StandstillDetector{kMany, Duration{0}}), "arm/guards.hpp", 1);

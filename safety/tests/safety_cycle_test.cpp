@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstring>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,8 @@ namespace {
 using namespace literals;
 using namespace verification;
 
-enum class Fault : FaultIndex { kFast, kSlip, kSilent, kLate, kSelfTest, kBrake };
-constexpr std::size_t kFaultCount = 6U;
+enum class Fault : FaultIndex { kFast, kSlip, kSilent, kLate, kSelfTest, kBrake, kWarm };
+constexpr std::size_t kFaultCount = 7U;
 constexpr Duration kFrame = 1_ms;
 constexpr Duration kTorqueFeedback = 5_ms;
 
@@ -30,7 +32,7 @@ class Watched final : public Component {
 
 class FakeMachine final : public SafetyCycle {
   public:
-    FakeMachine(SafetyState& state, EventLog& log) noexcept : SafetyCycle("machine", state, &log) {}
+    FakeMachine(SafetyState& state, EventLog* log) noexcept : SafetyCycle("machine", state, log) {}
 
     CycleInputs inputs{};
     std::array<bool, kFaultCount> present{};
@@ -38,6 +40,9 @@ class FakeMachine final : public SafetyCycle {
     SafeState commanded{SafeState::kLockedOut};
     StopOutputs outputs{};
     std::vector<std::string> calls{};
+    std::function<void()> after_command{};
+
+    using SafetyCycle::is_watchdog_served;
 
   private:
     CycleInputs read_inputs(Instant) noexcept override {
@@ -57,6 +62,9 @@ class FakeMachine final : public SafetyCycle {
         calls.emplace_back("command");
         commanded = state;
         outputs = wanted;
+        if (after_command) {
+            after_command();
+        }
     }
 };
 
@@ -64,11 +72,13 @@ Watched g_guard{"guard"};
 Watched g_controller{"controller"};
 constexpr auto kSystem = safety::system(
     frame(kFrame), window("all", 0_us, kFrame, budget(kFrame), run(g_guard, g_controller)),
-    faults<Fault::kFast, Fault::kSlip, Fault::kSilent, Fault::kLate, Fault::kSelfTest, Fault::kBrake>(),
+    faults<Fault::kFast, Fault::kSlip, Fault::kSilent, Fault::kLate, Fault::kSelfTest, Fault::kBrake,
+           Fault::kWarm>(),
     react(Fault::kFast, Reaction::kSto, within(2_ms)), react(Fault::kSlip, Reaction::kSs1, within(3_ms)),
     react(Fault::kSilent, Reaction::kSs2, within(2_ms)), react(Fault::kLate, Reaction::kSto, within(1_ms)),
     react(Fault::kSelfTest, Reaction::kSto, within(2_ms)), react(Fault::kBrake, Reaction::kSto, within(2_ms)),
-    confirm(Fault::kSlip, {3U}, {5U}), supervise(g_guard, alive(2U, 3U), deadline(100_us)),
+    react(Fault::kWarm, Reaction::kDegrade, within(2_ms)), confirm(Fault::kSlip, {3U}, {5U}),
+    supervise(g_guard, alive(2U, 3U), deadline(100_us)),
     supervise(g_controller, alive(2U, 3U), deadline(100_us), raises(Fault::kSilent)),
     cycle(StopBounds{20_ms, 20_ms}, BrakeLimits{10_ms, true}, WatchdogWindow{500_us, 4_ms},
           torque_feedback(kTorqueFeedback), tolerated_lateness(50_us), on_late_reaction(raises(Fault::kLate)),
@@ -145,7 +155,7 @@ class SafetyCycleTest : public ::testing::Test {
     SafetyState state_{storage_, watchdog_, &assumptions_};
     std::array<Event, 32U> events_{};
     EventLog log_{events_};
-    FakeMachine sut_{state_, log_};
+    FakeMachine sut_{state_, &log_};
     Instant now_{};
     bool is_guard_running_{true};
     bool is_controller_running_{true};
@@ -176,7 +186,8 @@ TEST_F(SafetyCycleTest, TheTableHoldsEverythingThatIsStated) {
 
 TEST_F(SafetyCycleTest, TheMachineIsAskedInAFixedOrder) {
     verifies("SWR-CYC-003");
-    const std::vector<std::string> faults{"fault 0", "fault 1", "fault 2", "fault 3", "fault 4", "fault 5"};
+    const std::vector<std::string> faults{"fault 0", "fault 1", "fault 2", "fault 3",
+                                          "fault 4", "fault 5", "fault 6"};
     const auto expect_calls = [&](std::vector<std::string> before) {
         before.insert(before.end(), faults.begin(), faults.end());
         before.emplace_back("command");
@@ -207,7 +218,30 @@ TEST_F(SafetyCycleTest, AFaultIsAnsweredInTheSameCycle) {
 
 TEST_F(SafetyCycleTest, ASecondInitialisationIsRejected) {
     verifies("SWR-CYC-003", Technique::kErrorGuessing, Polarity::kViolation);
-    EXPECT_EQ(sut_.on_initialize(), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut_.on_initialize(), Status::kPreconditionNotMet) << "the components are supervised";
+    set_present(Fault::kSlip, true);
+    step();
+    EXPECT_EQ(sut_.on_initialize(), Status::kPreconditionNotMet) << "a fault with a confirmation is present";
+}
+
+TEST_F(SafetyCycleTest, EventsAreWrittenOnceAndOnlyToALog) {
+    verifies("SWR-CYC-003", Technique::kEquivalenceClasses);
+    operate();
+    g_check.answer = SelfTestStatus::kFailed;
+    step();
+    step();
+    std::size_t failed = 0U;
+    for (std::size_t i = 0U; i < log_.size(); ++i) {
+        failed += log_.get(i).code == static_cast<std::uint16_t>(CycleEvent::kAssumptionFailed) ? 1U : 0U;
+    }
+    EXPECT_EQ(failed, 1U);
+
+    SafetyStorage<kSystem> storage;
+    SafetyState state{storage, watchdog_};
+    FakeMachine silent{state, nullptr};
+    ASSERT_EQ(silent.initialize(), Status::kOk);
+    EXPECT_EQ(silent.on_execute({0, now_}), Status::kOk);
+    EXPECT_EQ(silent.get_state(), SafeState::kSelfTest);
 }
 
 // ---- Rows of the table ----
@@ -278,6 +312,46 @@ TEST_F(SafetyCycleTest, AHealthyCycleIsServedEachFrame) {
         step();
         ASSERT_EQ(watchdog_.services, i);
     }
+}
+
+TEST_F(SafetyCycleTest, AServiceThatIsTooEarlyIsHeldBackAndNotRefused) {
+    verifies("SWR-CYC-006", Technique::kBoundaryValues);
+    step();
+    step();
+    now_ = now_ - kFrame + 100_us;
+    const std::size_t events = log_.size();
+
+    step();
+    EXPECT_FALSE(sut_.is_watchdog_served());
+    EXPECT_EQ(watchdog_.services, 2);
+    EXPECT_EQ(log_.size(), events);
+    EXPECT_EQ(state_.get_supervision().get_global_status(), GlobalStatus::kOk);
+}
+
+TEST_F(SafetyCycleTest, AStateThatChangesByItselfStopsTheService) {
+    verifies("SWR-CYC-006", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    // The state and its complement, one after the other.
+    const std::array<unsigned char, 2U> forms{
+        static_cast<unsigned char>(SafeState::kOperational),
+        static_cast<unsigned char>(~static_cast<unsigned>(SafeState::kOperational))};
+    auto* const image = reinterpret_cast<unsigned char*>(&state_);  // NOLINT: memory that changes by itself
+    std::size_t places = 0U;
+    std::size_t place = 0U;
+    for (std::size_t i = 0U; i + forms.size() <= sizeof(state_); ++i) {
+        if (std::memcmp(image + i, forms.data(), forms.size()) == 0) {
+            place = i;
+            ++places;
+        }
+    }
+    ASSERT_EQ(places, 1U);
+    const int services = watchdog_.services;
+    sut_.after_command = [image, place] { image[place] = 0U; };
+
+    step();
+    EXPECT_EQ(watchdog_.services, services);
+    sut_.after_command = {};
+    EXPECT_EQ(step(), SafeState::kLockedOut);
 }
 
 TEST_F(SafetyCycleTest, ASkippedStepStopsTheServiceForGood) {
@@ -384,6 +458,17 @@ TEST_F(SafetyCycleTest, AReactionThatTheOutputsDoNotShowInTimeIsAFault) {
     EXPECT_FALSE(sut_.outputs.torque_enable);
 }
 
+TEST_F(SafetyCycleTest, AReactionWithoutAStopShowsInNoOutput) {
+    verifies("SWR-CYC-005", Technique::kEquivalenceClasses);
+    operate();
+    is_obeying_ = false;
+    set_present(Fault::kWarm, true);
+    for (int i = 0; i < 10; ++i) {
+        EXPECT_EQ(step(), SafeState::kDegraded);
+    }
+    EXPECT_FALSE(is_latched(Fault::kLate));
+}
+
 TEST_F(SafetyCycleTest, EachKindOfStopShowsInTheOutputs) {
     verifies("SWR-CYC-005", Technique::kEquivalenceClasses, Polarity::kViolation);
     // SS2 and SS1 are begun by a stop or no torque; STO by no torque only.
@@ -403,7 +488,7 @@ TEST_F(SafetyCycleTest, EachKindOfStopShowsInTheOutputs) {
     for (const Case& one : cases) {
         SafetyStorage<kSystem> storage;
         SafetyState state{storage, watchdog_};
-        FakeMachine machine{state, log_};
+        FakeMachine machine{state, &log_};
         ASSERT_EQ(machine.initialize(), Status::kOk);
         machine.inputs.applied = one.applied;
         machine.present[static_cast<std::size_t>(one.fault)] = true;
@@ -452,6 +537,27 @@ TEST_F(SafetyCycleTest, TorqueThatEndsInTimeConfirmsTheStop) {
     for (int i = 0; i < 20; ++i) {
         ASSERT_EQ(step(), SafeState::kSafe);
     }
+}
+
+TEST_F(SafetyCycleTest, AFlippedBitOfTheTimeWithTorqueLocksOut) {
+    verifies("SWR-CYC-007", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    // The time is zero: eight bytes of zeros, and their complement behind them.
+    std::array<unsigned char, 16U> forms{};
+    std::memset(forms.data() + 8U, 0xFF, 8U);
+    auto* const image = reinterpret_cast<unsigned char*>(&state_);  // NOLINT: memory that changes by itself
+    std::size_t places = 0U;
+    std::size_t place = 0U;
+    for (std::size_t i = 0U; i + forms.size() <= sizeof(state_); i += alignof(Duration)) {
+        if (std::memcmp(image + i, forms.data(), forms.size()) == 0) {
+            place = i;
+            ++places;
+        }
+    }
+    ASSERT_EQ(places, 1U);
+    image[place] = 1U;
+
+    EXPECT_EQ(step(), SafeState::kLockedOut);
 }
 
 TEST_F(SafetyCycleTest, AClockThatRunsBackwardsLocksOut) {

@@ -46,6 +46,7 @@ TEST(StopOutputsTest, OneCommandThatDiffersIsAnotherRow) {
     EXPECT_FALSE(kMoving == (StopOutputs{true, false, false, false}));
     EXPECT_FALSE(kMoving == kStopping);
     EXPECT_FALSE(kMoving == kHolding);
+    EXPECT_FALSE(kStopping == kHolding);
 }
 
 TEST(StopOutputsTest, RowWithTorqueAgainstAClosedBrakeOrWithoutTorqueUnderAnOpenOneIsRefused) {

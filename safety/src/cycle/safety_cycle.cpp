@@ -9,17 +9,10 @@ namespace {
 
 /// A degraded mode shows in no output: it begins with the state.
 bool has_begun(Reaction reaction, const StopOutputs& applied) noexcept {
-    switch (reaction) {
-        case Reaction::kNone:
-        case Reaction::kDegrade:
-            return true;
-        case Reaction::kSs2:
-        case Reaction::kSs1:
-            return !applied.torque_enable || applied.stop_requested;
-        case Reaction::kSto:
-            break;
+    if (reaction < Reaction::kSs2) {
+        return true;
     }
-    return !applied.torque_enable;
+    return !applied.torque_enable || (reaction < Reaction::kSto && applied.stop_requested);
 }
 
 }  // namespace

@@ -26,10 +26,11 @@ constexpr std::size_t count_reactions(const SystemView& view, std::uint32_t faul
     return count;
 }
 
-/// Finds the first mode without exactly one reaction; a system without modes has mode 0 only.
+/// Finds the first mode without exactly one reaction; a system without modes has mode 0 only. The check of
+/// the rows rejects more than kSystemModeMax modes.
 constexpr void check_reactions_of(const SystemView& view, std::size_t fault, FindingList& findings) noexcept {
     const std::size_t mode_count = view.modes.modes.empty() ? 1U : view.modes.modes.size();
-    for (std::size_t mode = 0U; mode < mode_count && mode < kSystemModeMax; ++mode) {
+    for (std::size_t mode = 0U; mode < mode_count; ++mode) {
         const std::size_t count = count_reactions(view, view.faults[fault].fault, mode);
         if (count != 1U) {
             findings.add(count == 0U ? Rule::kFaultWithoutReaction : Rule::kFaultWithTwoReactions, fault,

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: each rule of a safety table is checked by itself. Method: a table that is built while the test runs,
+// changed in one value at a time, on both sides of each limit.
+#include "mamori/safety/cycle/safety_rules.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mamori/trace/verifies.hpp"
+
+namespace mamori::safety {
+namespace {
+
+using namespace literals;
+using namespace verification;
+
+enum class Fault { kFast, kSilent };
+constexpr auto kBeyond = static_cast<Fault>(2);
+
+class Watched final : public Component {
+  public:
+    constexpr explicit Watched(const char* name) noexcept : Component(name) {}
+};
+Watched g_guard{"guard"};
+Watched g_controller{"controller"};
+Watched g_stranger{"stranger"};
+
+template <typename... Parts>
+constexpr auto build(const Parts&... parts) {
+    return safety::system(frame(1_ms), window("all", 0_us, 1_ms, budget(1_ms), run(g_guard, g_controller)),
+                          faults<Fault::kFast, Fault::kSilent>(),
+                          react(Fault::kFast, Reaction::kSs1, within(2_ms)),
+                          react(Fault::kSilent, Reaction::kSto, within(2_ms)), parts...);
+}
+
+auto make_cycle(Fault late = Fault::kFast, Fault self_test = Fault::kFast, Fault brakes = Fault::kFast) {
+    return cycle(StopBounds{20_ms, 20_ms}, BrakeLimits{10_ms, true}, WatchdogWindow{500_us, 4_ms},
+                 torque_feedback(5_ms), tolerated_lateness(50_us), on_late_reaction(raises(late)),
+                 on_failed_self_test(raises(self_test)), on_unconfirmed_brakes(raises(brakes)));
+}
+
+auto build_sound() {
+    return build(supervise(g_guard, alive(2U, 3U), deadline(100_us)),
+                 supervise(g_controller, alive(2U, 3U), deadline(100_us), raises(Fault::kSilent)),
+                 confirm(Fault::kFast, {2U}), confirm(Fault::kSilent, {3U}), make_cycle());
+}
+
+/// The rule that a sound table violates after one change.
+template <typename Change>
+SafetyFinding check(Change change) {
+    auto table = build_sound();
+    change(table);
+    return detail::check_safety(table);
+}
+
+TEST(SafetyRulesTest, ASoundTableViolatesNothing) {
+    verifies("SWR-CYC-002");
+    EXPECT_EQ(check([](auto&) {}).rule, SafetyRule::kNone);
+    EXPECT_EQ(detail::to_fault(static_cast<Fault>(0xFFFF)), kNoFault - 1U) << "out of range";
+    EXPECT_EQ(detail::to_fault(static_cast<Fault>(0xFFFE)), kNoFault - 1U);
+}
+
+TEST(SafetyRulesTest, FaultsAndReactionsAreThoseOfTheSafetyLayer) {
+    verifies("SWR-CYC-002", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(check([](auto& table) { table.faults[1U].fault = 2U; }).rule, SafetyRule::kFaultsNumbered);
+    EXPECT_EQ(check([](auto& table) { table.reactions[1U].reaction = 5U; }).rule, SafetyRule::kReactionKnown);
+    EXPECT_EQ(check([](auto& table) { table.reactions[1U].reaction = 5U; }).row, 1U);
+}
+
+TEST(SafetyRulesTest, SupervisionIsOfComponentsOfTheTableInRange) {
+    verifies("SWR-CYC-002", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(check([](auto& table) { table.supervised[1U].watch.component = &g_stranger; }).rule,
+              SafetyRule::kSupervisedInTable);
+    EXPECT_EQ(check([](auto& table) { table.supervised[1U].watch.component = &g_guard; }).rule,
+              SafetyRule::kSupervisedOnce);
+    EXPECT_EQ(check([](auto& table) { table.supervised[1U].watch.limits.alive = {3U, 2U}; }).rule,
+              SafetyRule::kAliveInRange);
+    EXPECT_EQ(check([](auto& table) { table.supervised[1U].watch.limits.deadline = {}; }).rule,
+              SafetyRule::kDeadlineInRange);
+    EXPECT_EQ(check([](auto& table) { table.supervised[1U].fault = 2U; }).rule,
+              SafetyRule::kRaisedFaultDeclared);
+    EXPECT_EQ(check([](auto& table) { table.supervised[0U].fault = 1U; }).rule, SafetyRule::kSomethingProven);
+}
+
+TEST(SafetyRulesTest, ConfirmationsAreOfDeclaredFaultsOnce) {
+    verifies("SWR-CYC-002", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(check([](auto& table) { table.confirmations[1U].fault = 2U; }).rule,
+              SafetyRule::kConfirmedFaultDeclared);
+    EXPECT_EQ(check([](auto& table) { table.confirmations[1U].fault = 0U; }).rule,
+              SafetyRule::kConfirmedOnce);
+    EXPECT_EQ(check([](auto& table) { table.confirmations[1U].confirmation = {0U}; }).rule,
+              SafetyRule::kConfirmationInRange);
+    EXPECT_EQ(check([](auto& table) { table.confirmations[1U].healing = {0U}; }).rule,
+              SafetyRule::kConfirmationInRange);
+}
+
+TEST(SafetyRulesTest, SettingsOfTheCycleAreInRange) {
+    verifies("SWR-CYC-002", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_cycle = [](auto change) {
+        return check([&change](auto& table) { change(table.cycle); }).rule;
+    };
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.stops.ss1_within = 0_ms; }),
+              SafetyRule::kStopBoundsInRange);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.stops.ss2_within = 0_ms; }),
+              SafetyRule::kStopBoundsInRange);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.brakes.closes_within = 0_ms; }),
+              SafetyRule::kBrakesHaveTime);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.brakes.closes_within = 20_ms; }),
+              SafetyRule::kBrakesHaveTime);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.brakes.closes_within = 20_ms - 1_ns; }), SafetyRule::kNone);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.watchdog = {Duration{-1}, 4_ms}; }),
+              SafetyRule::kWatchdogInRange);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.watchdog = {4_ms, 4_ms}; }), SafetyRule::kWatchdogInRange);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.torque_feedback = 0_ms; }),
+              SafetyRule::kTorqueFeedbackInRange);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.lateness_max = Duration{-1}; }),
+              SafetyRule::kLatenessInRange);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.lateness_max = 0_ms; }), SafetyRule::kNone);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.late_fault = 2U; }), SafetyRule::kCycleFaultDeclared);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.self_test_fault = 2U; }), SafetyRule::kCycleFaultDeclared);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.brake_fault = 2U; }), SafetyRule::kCycleFaultDeclared);
+}
+
+TEST(SafetyRulesTest, ATableHasOneCycle) {
+    verifies("SWR-CYC-002", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const auto guard = supervise(g_guard, alive(), deadline(1_ms));
+    EXPECT_EQ(detail::check_safety(build(guard)).rule, SafetyRule::kCycleOnce);
+    EXPECT_EQ(detail::check_safety(build(guard, make_cycle(), make_cycle())).rule, SafetyRule::kCycleOnce);
+    EXPECT_EQ(detail::check_safety(build(guard, make_cycle(Fault::kFast, Fault::kFast, kBeyond))).rule,
+              SafetyRule::kCycleFaultDeclared);
+}
+
+constexpr auto kSound =
+    build(supervise(g_guard, alive(), deadline(1_ms)),
+          cycle(StopBounds{20_ms, 20_ms}, BrakeLimits{10_ms, true}, WatchdogWindow{500_us, 4_ms},
+                torque_feedback(5_ms), tolerated_lateness(50_us), on_late_reaction(raises(Fault::kFast)),
+                on_failed_self_test(raises(Fault::kFast)), on_unconfirmed_brakes(raises(Fault::kFast))));
+
+TEST(SafetyRulesTest, TheCheckOfAConstantTableAnswersWhileRunningToo) {
+    verifies("SWR-CYC-002", Technique::kInterface);
+    EXPECT_TRUE(keeps_safety_rules<kSound>());
+    EXPECT_TRUE((std::is_same_v<decltype(detail::show_faulty<kSound, SafetyRule::kAliveInRange, 0U>()),
+                                detail::Shown<Watched>>));
+    static_cast<void>(detail::show_faulty<kSound, SafetyRule::kNone, 0U>());
+    static_cast<void>(detail::show_faulty<kSound, SafetyRule::kAliveInRange, 0U>());
+}
+
+}  // namespace
+}  // namespace mamori::safety
