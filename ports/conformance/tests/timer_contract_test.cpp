@@ -33,6 +33,8 @@ enum class TimerFlaw {
     kGoesBack,
     kRunsOneMore,
     kRunsTwentyMore,
+    kFirstOpensOnceMore,
+    kSecondOpensOnceMore,
     kBeginsLate,
     kSkipsSilently,
     kSkipsAndReports,
@@ -102,6 +104,11 @@ class FlawedTimer final : public TimerRig {
                                                                                      : 0U);
         for (std::uint64_t i = 0U; i < count; ++i) {
             run_frame();
+        }
+        if (has(TimerFlaw::kFirstOpensOnceMore)) {
+            open(0U, frame_);
+        } else if (has(TimerFlaw::kSecondOpensOnceMore)) {
+            open(1U, frame_ + 4_ms);
         }
         if (has(TimerFlaw::kGoesBack)) {
             frame_ = frame_ - kFrame;
@@ -199,6 +206,8 @@ INSTANTIATE_TEST_SUITE_P(
                       FlawCase{TimerFlaw::kGoesBack, "out of order"},
                       FlawCase{TimerFlaw::kRunsOneMore, "more major frames ran"},
                       FlawCase{TimerFlaw::kRunsTwentyMore, "more major frames ran"},
+                      FlawCase{TimerFlaw::kFirstOpensOnceMore, "more major frames ran"},
+                      FlawCase{TimerFlaw::kSecondOpensOnceMore, "more major frames ran"},
                       FlawCase{TimerFlaw::kBeginsLate, "first major frame: 1, expected 0"},
                       FlawCase{TimerFlaw::kSkipsSilently, "did not start and was not reported as skipped"},
                       FlawCase{TimerFlaw::kReportsFalseSkip, "started more than once in a major frame"},

@@ -195,6 +195,7 @@ TEST(WatchdogContractTest, TheStateContainsTheQuartersOfTheTimeoutSinceTheLastSe
     EXPECT_EQ(list_states(make(WatchdogFlaw::kNone, 0_ns), {0U, 1U, 3U, 3U, 2U, 3U, 3U, 3U, 3U, 6U, 9U}),
               (std::vector<std::string>{"0 0", "0 0", "1 0", "1 1", "1 2", "1 0", "1 1", "1 2", "1 3", "1 4",
                                         "2 0", "0 0"}));
+    EXPECT_EQ(list_states(make(WatchdogFlaw::kNone, 450_ns), {1U}).back(), "1 4") << "at most four";
     EXPECT_EQ(list_states(make(WatchdogFlaw::kNone, 300_ns), {1U}).back(), "1 3")
         << "300 ns for each of the three readings";
 }

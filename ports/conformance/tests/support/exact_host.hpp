@@ -49,8 +49,8 @@ class ExactHost final : public WindowHost {
 
     std::size_t run_within(const Work& work, Instant deadline) noexcept override {
         run_left_over(work.window);
-        if (has(HostFlaw::kClockGoesBack)) {
-            now_ = now_ - 1_ms;
+        if (has(HostFlaw::kClockGoesBack) && now_ > Instant{}) {
+            now_ = now_ - 2_us;
         }
         const bool is_disturbed = has(HostFlaw::kNeedsOthersToReturn) && is_hang_out_;
         for (std::size_t i = 0U; i < work.count; ++i) {
