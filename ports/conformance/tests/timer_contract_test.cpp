@@ -52,7 +52,7 @@ struct Requests {
     std::set<std::string> windows;  ///< budget of a window and time that its component spends
 };
 
-/// Runs work immediately, with the execution time that the test specifies. Work that was cut off returns 3 ms
+/// Runs work immediately, with the execution time that the test specifies. Aborted work returns 3 ms
 /// later.
 class SpotHost final : public WindowHost {
   public:
