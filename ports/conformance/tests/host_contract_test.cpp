@@ -95,6 +95,34 @@ TEST(HostContractTest, AFalseReportOfTheEndOfAHangIsReported) {
     EXPECT_FALSE(report.is_kept());
 }
 
+TEST(HostContractTest, AFindingComesWithTheFirstRuleThatCanShowIt) {
+    verifies("SWR-CNF-003", Technique::kFaultInjection, Polarity::kViolation);
+    struct Case {
+        HostFlaw flaw;
+        Walk walk;
+        const char* sentence;
+    };
+    for (const Case& shown :
+         {Case{HostFlaw::kCountedStepEndsLate, {0U}, "a counted step ended after the deadline"},
+          Case{HostFlaw::kCountedStepEndsLate, {1U}, "a counted step ended after the deadline"},
+          Case{HostFlaw::kRunsAbandonedStepLater, {6U, 25U, 25U}, "after the reported end of its work"}}) {
+        const Report report = replay(make_exact(shown.flaw), shown.walk);
+        ASSERT_FALSE(report.is_kept()) << shown.sentence;
+        EXPECT_EQ(report.step_count, shown.walk.size());
+        EXPECT_NE(report.findings[0].find(shown.sentence), std::string::npos) << report.to_text();
+    }
+}
+
+TEST(HostContractTest, WorkDuringAHangNeedsTheHangOfTheNamedWindow) {
+    verifies("SWR-CNF-004", Technique::kStateTransition);
+    for (const Walk& walk : {Walk{11U, 23U}, Walk{17U, 24U}}) {
+        EXPECT_TRUE(replay(make_exact(HostFlaw::kNone), walk).is_kept());
+    }
+    for (const Walk& walk : {Walk{23U}, Walk{24U}, Walk{17U, 23U}, Walk{11U, 24U}}) {
+        EXPECT_FALSE(replay(make_exact(HostFlaw::kNone), walk).is_kept());
+    }
+}
+
 TEST(HostContractTest, AReportedEndOfAStepThatStillRunsIsReported) {
     verifies("SWR-CNF-005", Technique::kFaultInjection, Polarity::kViolation);
     struct Case {

@@ -29,7 +29,8 @@ class RecordingHostRig final : public HostRig, public WindowHost {
     void plan(const WindowHost::Work& work, const std::vector<StepPlan>& steps) override {
         steps_.clear();
         for (const StepPlan& step : steps) {
-            steps_ += step.is_hang ? " hang" : " " + std::to_string(step.time.ns);
+            const bool is_hang_only = step.is_hang && step.time == Duration{0};
+            steps_ += is_hang_only ? " hang" : " " + std::to_string(step.time.ns);
         }
         rig_.plan(work, steps);
     }
