@@ -85,6 +85,7 @@ TEST(HostContractTest, ACompliantHostIsAccepted) {
     verifies("SWR-CNF-003", Technique::kStateTransition);
     EXPECT_EQ(run_in_order(make_exact(HostFlaw::kNone)).to_text().substr(0U, 8U), "28 rules");
     EXPECT_TRUE(run_randomly(make_exact(HostFlaw::kNone), 3U, 5000U).is_kept());
+    EXPECT_TRUE(run_in_order(make_exact(HostFlaw::kEntersOneAbandonedStep)).is_kept());
     EXPECT_TRUE(run_in_order(make_threaded(ThreadFlaw::kNone)).is_kept());
     EXPECT_TRUE(run_randomly(make_threaded(ThreadFlaw::kNone), 5U, 300U).is_kept());
 }

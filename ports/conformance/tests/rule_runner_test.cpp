@@ -179,6 +179,8 @@ TEST(RuleRunnerTest, ARuleThatNeverRanIsAFindingInEachOrder) {
         ASSERT_EQ(report.findings.size(), 1U);
         EXPECT_NE(report.findings[0].find("rule 'never' (SWR-A-003) never ran"), std::string::npos);
     }
+    std::swap(rules.front(), rules.back());
+    EXPECT_FALSE(run_in_order(make(rules)).is_kept()) << "also for the first rule";
 }
 
 TEST(RuleRunnerTest, AStateWithoutApplicableRuleIsAFinding) {
@@ -194,7 +196,11 @@ TEST(RuleRunnerTest, AStateWithoutApplicableRuleIsAFinding) {
 
 TEST(RuleRunnerTest, WithoutMissingRulesThereIsNoFinding) {
     verifies("SWR-CNF-009");
-    EXPECT_TRUE(run_randomly(make(make_steps(10)), 1U, 100U).is_kept());
+    const Report report = run_randomly(make(make_steps(10)), 1U, 100U);
+    EXPECT_TRUE(report.is_kept());
+    EXPECT_EQ(report.step_count, 100U);
+    EXPECT_TRUE(run_randomly(make(make_steps(10)), 1U, 0U).is_kept())
+        << "the fixed order runs what is missing";
 }
 
 TEST(RuleRunnerTest, EveryOrderIsAppliedOnce) {

@@ -28,6 +28,7 @@ enum class HostFlaw {
     kStepEndsBeforeItBegins,
     kLateStepEndsInTime,
     kRunsAbandonedStepLater,
+    kEntersOneAbandonedStep,  ///< permitted
     kEntersAllAbandonedSteps,
     kNeverSaysReturned,
     kForgetsReturnOfAHang,
@@ -121,10 +122,12 @@ class ExactHost final : public WindowHost {
             left_over_.first = work.first + i + 1U;
             is_left_over_ = true;
         }
-        if (has(HostFlaw::kEntersAllAbandonedSteps)) {
+        const bool is_one_entered = has(HostFlaw::kEntersOneAbandonedStep) && !plan.is_hang;
+        if (is_one_entered || has(HostFlaw::kEntersAllAbandonedSteps)) {
             const Instant answered_at = now_;
+            const std::size_t end = is_one_entered ? i + 2U : work.count;
             now_ = step_end_;
-            for (std::size_t rest = i + 1U; rest < work.count; ++rest) {
+            for (std::size_t rest = i + 1U; rest < work.count && rest < end; ++rest) {
                 run(work, rest);
             }
             now_ = answered_at;
