@@ -42,6 +42,10 @@ class FlawedWatchdog final : public WatchdogRig, public safety::Watchdog {
         note("new");
     }
 
+    ~FlawedWatchdog() override { note("end"); }
+    FlawedWatchdog(const FlawedWatchdog&) = delete;
+    FlawedWatchdog& operator=(const FlawedWatchdog&) = delete;
+
     safety::Watchdog& get_watchdog() override { return *this; }
     Duration get_timeout() const override { return kTimeout; }
     Instant get_now() const override {
@@ -174,10 +178,10 @@ TEST(WatchdogContractTest, EachRuleRequestsWhatItsNameStates) {
               "wait 1001\nservice\nlook\n"
               "service\nlook\n"
               "wait 2000\nlook\n"
-              "new\nlook\n"
+              "end\nnew\nlook\n"
               "wait 2000\nlook\n"
               "service\nlook\n"
-              "wait 2000\nlook\n");
+              "wait 2000\nlook\nend\n");
 }
 
 TEST(WatchdogContractTest, AWaitForALimitSubtractsTheTimeOfTheReadingsAndIsNeverNegative) {
@@ -186,7 +190,7 @@ TEST(WatchdogContractTest, AWaitForALimitSubtractsTheTimeOfTheReadingsAndIsNever
                                      std::make_pair(250_ns, "1"), std::make_pair(400_ns, "0")}) {
         std::string calls;
         EXPECT_TRUE(replay(make(WatchdogFlaw::kNone, step, &calls), {1U, 5U}).is_kept());
-        EXPECT_EQ(calls, "new\nservice\nlook\nwait " + std::string{wait} + "\nservice\nlook\n");
+        EXPECT_EQ(calls, "new\nservice\nlook\nwait " + std::string{wait} + "\nservice\nlook\nend\n");
     }
 }
 
