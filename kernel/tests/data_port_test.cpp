@@ -185,6 +185,22 @@ TEST_F(DataPortTest, AnInputThatKeepsTheLatestValueCountsNothing) {
     EXPECT_EQ(counts.empty_reads, 0U);
 }
 
+TEST_F(DataPortTest, ValuesThatOneSourceLostAreNotCountedAmongThoseOfTheNext) {
+    verifies("SWR-KRN-054", Technique::kStateTransition);
+    in_.restart(kBeforeAll, 4U);
+    in_.take({50, 5U, Instant{1}});
+    in_.note_discarded(2U, 7U);
+    EXPECT_EQ(in_.get_latest_counts().lost, 2U);
+
+    in_.restart(Instant{2}, 3U);  // another source, whose revision passes the one held before
+    in_.take({40, 4U, Instant{3}});
+    in_.take({50, 5U, Instant{4}});
+
+    EXPECT_EQ(in_.get_latest_counts().received, 3U);
+    EXPECT_EQ(in_.get_latest_counts().superseded, 0U);
+    EXPECT_EQ(in_.get_latest_counts().lost, 2U);
+}
+
 TEST_F(DataPortTest, ALatchedValueIsNewOnceAndGrowsOld) {
     verifies("SWR-KRN-016");
     out_.write(5);

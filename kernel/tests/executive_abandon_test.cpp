@@ -117,7 +117,7 @@ TEST(ExecutiveAbandonedWorkTest, WorkThatHangsIsNamedEachFrameAndNeverPublishesW
     EXPECT_EQ(other.out.get_sequence(), 1U);
 }
 
-/// Writes in both passes, and into a second window.
+/// Writes in both passes and when it is deactivated.
 class TwoPasses final : public Component {
   public:
     explicit TwoPasses(const char* name = "two passes") noexcept : Component(name) {}
@@ -129,6 +129,7 @@ class TwoPasses final : public Component {
 
     Status on_deactivated(ContextHandle) noexcept override {
         ++deactivated;
+        out.write(666);
         return Status::kOk;
     }
     Status on_execute(ContextHandle) noexcept override {
@@ -161,8 +162,10 @@ class DelayingHost final : public WindowHost {
         return work.count;
     }
     bool has_returned(std::size_t window) const noexcept override {
+        ++question_count;
         return window != 0U || !late.has_value();
     }
+    mutable int question_count{0};
     void run_late() const noexcept { late->run(late->argument, late->first, late->first + late->count); }
 };
 
@@ -231,6 +234,18 @@ TEST_P(ExecutiveLateEntryTest, StopIsRefusedWhileWorkIsOutAndNeedsNoOpeningAfter
     EXPECT_FALSE(context.get_acting_position().has_value());
 }
 
+TEST_P(ExecutiveLateEntryTest, AHostWhoseWorkHasComeBackIsNotAskedAgain) {
+    verifies("SWR-KRN-032", Technique::kErrorGuessing);
+    host_.to_cut = GetParam();
+    ASSERT_EQ(open(0U, 0), WindowOutcome::kOverrun);
+    host_.late.reset();
+    ASSERT_EQ(open(0U, 1000), WindowOutcome::kCompleted);
+    const int question_count = host_.question_count;
+
+    EXPECT_EQ(sut_.stop(), Status::kOk);
+    EXPECT_EQ(host_.question_count, question_count) << "it may have ended";
+}
+
 TEST_P(ExecutiveLateEntryTest, AWindowThatCouldNotBeStoppedRunsNoCycleAnyMore) {
     verifies("SWR-KRN-033", Technique::kFaultInjection, Polarity::kViolation);
     host_.to_cut = GetParam();
@@ -243,6 +258,7 @@ TEST_P(ExecutiveLateEntryTest, AWindowThatCouldNotBeStoppedRunsNoCycleAnyMore) {
     host_.late.reset();
     EXPECT_EQ(open(0U, 2000), WindowOutcome::kStopped);
     EXPECT_EQ(component_.deactivated, 1);
+    EXPECT_FALSE(component_.out.is_staged()) << "what it wrote while it stopped is thrown away";
     EXPECT_FALSE(sut_.get_context(0U).is_running());
     EXPECT_EQ(open(0U, 3000), WindowOutcome::kStopped);
     EXPECT_EQ(component_.executed, executed);
@@ -299,6 +315,67 @@ TEST(ExecutiveLateStopTest, AStopThatTakesTooLongGoesOnInTheNextOpening) {
     EXPECT_EQ(first.deactivated, 1) << "not twice";
     EXPECT_EQ(second.deactivated, 1);
     EXPECT_EQ(first.executed + second.executed, 0);
+}
+
+TEST(ExecutiveLateStopTest, AStopThatHangsIsNamedAndKeepsItsWindowClosed) {
+    verifies("SWR-KRN-033", Technique::kFaultInjection, Polarity::kViolation);
+    Counter other;
+    TwoPasses first{"first"};
+    TwoPasses second{"second"};
+    const auto table = system(frame(1000_ns), window("v", 0_ns, 400_ns, budget(300_ns), run(other)),
+                              window("w", 400_ns, 400_ns, budget(300_ns), run(first, second)));
+    ExecutiveFor sut{table};
+    SpyObserver observer;
+    FakeHost host;
+    FakeHost stopping_host;
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    sut.set_observer(&observer);
+    const auto open = [&sut](FakeHost& by, std::int64_t at) {
+        by.now = Instant{at};
+        return sut.run_window(1U, Instant{at}, by);
+    };
+    host.hangs[{1U, Pass::kExecute}] = true;
+    host.is_work_out = true;
+    ASSERT_EQ(open(host, 400), WindowOutcome::kOverrun);
+    ASSERT_EQ(sut.stop(), Status::kPreconditionNotMet);
+    host.is_work_out = false;
+    stopping_host.hangs[{2U, Pass::kModeStep}] = true;
+    stopping_host.is_work_out = true;
+
+    EXPECT_EQ(open(stopping_host, 1400), WindowOutcome::kOverrun);
+    EXPECT_EQ(open(stopping_host, 2400), WindowOutcome::kOverrun);
+    EXPECT_EQ(stopping_host.deadlines.size(), 1U) << "it waits for the work that is out";
+    EXPECT_EQ(observer.heard,
+              (Heard{"overrun window 1 component 1 @700", "overrun window 1 component 2 @1700",
+                     "overrun window 1 component 2 @2400"}));
+    EXPECT_TRUE(sut.get_context(1U).is_running());
+
+    stopping_host.hangs.clear();
+    stopping_host.is_work_out = false;
+    EXPECT_EQ(open(stopping_host, 3400), WindowOutcome::kStopped);
+    EXPECT_EQ(first.deactivated, 1);
+    EXPECT_EQ(second.deactivated, 1);
+}
+
+TEST(ExecutiveLateStopTest, AHostThatRunsAllStepsInOneCallStopsEachComponent) {
+    verifies("SWR-KRN-033", Technique::kInterface);
+    TwoPasses first{"first"};
+    TwoPasses second{"second"};
+    const auto table = system(frame(1000_ns), window("w", 0_ns, 400_ns, budget(300_ns), run(first, second)));
+    ExecutiveFor sut{table};
+    DelayingHost host;
+    ASSERT_EQ(sut.initialize(), Status::kOk);
+    ASSERT_EQ(sut.start(), Status::kOk);
+    host.to_cut = Pass::kExecute;
+    ASSERT_EQ(sut.run_window(0U, Instant{0}, host), WindowOutcome::kOverrun);
+    ASSERT_EQ(sut.stop(), Status::kPreconditionNotMet);
+    host.late.reset();
+    host.now = Instant{1000};
+
+    EXPECT_EQ(sut.run_window(0U, Instant{1000}, host), WindowOutcome::kStopped);
+    EXPECT_EQ(first.deactivated, 1);
+    EXPECT_EQ(second.deactivated, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothPasses, ExecutiveLateEntryTest,

@@ -130,6 +130,21 @@ TEST_F(FsmComponentTest, ActionsComeForTheExitTheTransitionAndTheEntry) {
     EXPECT_EQ(bell_.handles.back().id, kId);
 }
 
+TEST_F(FsmComponentTest, AnActionOfATransitionBelongsToTheComponentThatActs) {
+    verifies("SWR-RTC-006", Technique::kErrorGuessing);
+    std::vector<std::size_t> positions;
+    const auto look = [&](const std::string&) {
+        positions.push_back(context_.get_acting_position().get_value());
+    };
+    bell_.inside = look;
+    lamp_.inside = look;
+    send(kPush);
+
+    run_cycle();
+
+    EXPECT_EQ(positions, (std::vector<std::size_t>{1U, 2U, 2U})) << "not to the state machine at position 0";
+}
+
 TEST_F(FsmComponentTest, ATransitionToTheSameStateLeavesAndEntersIt) {
     verifies("SWR-RTC-006", Technique::kBoundaryValues);
     send(kPush);

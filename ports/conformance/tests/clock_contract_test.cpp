@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "mamori/ports/conformance/rule_runner.hpp"
 #include "mamori/trace/verifies.hpp"
@@ -25,10 +27,12 @@ enum class ClockFlaw {
     kOversleeps,
     kRunsAlone
 };
+using Calls = std::vector<std::string>;
 
 class FlawedClock final : public ClockRig {
   public:
-    FlawedClock(ClockFlaw flaw, bool is_exact) : flaw_(flaw), is_exact_(is_exact) {}
+    FlawedClock(ClockFlaw flaw, bool is_exact, Calls* calls)
+        : flaw_(flaw), is_exact_(is_exact), calls_(calls) {}
 
     Instant get_now() const override {
         ++readings_;
@@ -38,6 +42,11 @@ class FlawedClock final : public ClockRig {
         return flaw_ == ClockFlaw::kRunsAlone ? now_ + Duration{readings_} : now_;
     }
     void wait_until(Instant instant) override {
+        if (calls_ != nullptr) {
+            calls_->push_back(std::to_string(readings_) + " readings, wait " +
+                              std::to_string((instant - now_).ns));
+            readings_ = 0;
+        }
         const bool is_skipped = flaw_ == ClockFlaw::kSkipsShortWaits && instant <= now_ + 1_ns;
         if (instant > now_ && !is_skipped) {
             now_ = flaw_ == ClockFlaw::kWakesEarly   ? instant - 1_ns
@@ -53,12 +62,15 @@ class FlawedClock final : public ClockRig {
   private:
     ClockFlaw flaw_;
     bool is_exact_;
-    Instant now_{};
+    Calls* calls_;
+    Instant now_{1'234'567};
     mutable std::int64_t readings_{0};
 };
 
-TrialFactory make(ClockFlaw flaw, bool is_exact) {
-    return make_clock_trials([flaw, is_exact] { return std::make_unique<FlawedClock>(flaw, is_exact); });
+/// @param[out] calls receives the waits with the number of readings before each, unless it is nullptr.
+TrialFactory make(ClockFlaw flaw, bool is_exact, Calls* calls = nullptr) {
+    return make_clock_trials(
+        [flaw, is_exact, calls] { return std::make_unique<FlawedClock>(flaw, is_exact, calls); });
 }
 
 struct FlawCase {
@@ -98,6 +110,27 @@ TEST(ClockContractTest, ACompliantClockIsAccepted) {
     EXPECT_TRUE(explore(make(ClockFlaw::kNone, false), 3U).is_kept());
     EXPECT_TRUE(run_in_order(make(ClockFlaw::kOversleeps, false)).is_kept()) << "a busy host";
     EXPECT_TRUE(run_in_order(make(ClockFlaw::kRunsAlone, false)).is_kept()) << "as real time does";
+}
+
+TEST(ClockContractTest, EachRuleReadsAndWaitsAsItsNameStates) {
+    verifies("SWR-CNF-001", Technique::kBoundaryValues);
+    Calls calls;
+    EXPECT_TRUE(run_in_order(make(ClockFlaw::kNone, true, &calls)).is_kept());
+    EXPECT_EQ(calls, (Calls{"1002 readings, wait 1000000", "2 readings, wait 1", "2 readings, wait 0",
+                            "2 readings, wait -2000000", "2 readings, wait 1999999"}));
+
+    calls.clear();
+    EXPECT_TRUE(replay(make(ClockFlaw::kNone, true, &calls), {1U, 1U, 1U, 1U, 5U, 5U}).is_kept());
+    ASSERT_EQ(calls.size(), 6U);
+    EXPECT_EQ(calls[4], "2 readings, wait 2000000") << "to the next multiple of three ticks";
+    EXPECT_EQ(calls[5], "2 readings, wait 3000000");
+}
+
+TEST(ClockContractTest, TheStateIsThePositionInAPeriodOfTheSchedule) {
+    verifies("SWR-CNF-001", Technique::kStateTransition);
+    EXPECT_EQ(list_states(make(ClockFlaw::kNone, true), {1U, 2U, 1U, 1U, 3U}),
+              (Calls{"0", "1000000", "1000001", "2000001", "1", "1"}));
+    EXPECT_EQ(list_states(make(ClockFlaw::kNone, false), {1U}), (Calls{"running", "running"}));
 }
 
 TEST(ClockContractTest, EachRuleHasANameOfItsOwnAndARequirement) {

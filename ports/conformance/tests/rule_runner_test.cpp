@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <utility>
+
 #include "mamori/ports/conformance/rule_trial.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
@@ -71,6 +74,75 @@ TEST(RuleRunnerTest, ASeedReproducesItsSequenceAndAnotherSeedGivesAnother) {
     EXPECT_NE(run_randomly(make(make_steps(3)), 8U, 1000U).to_text(), first);
 }
 
+TEST(RuleRunnerTest, TheRandomSequenceIsThatOfSplitMix64OnEachHost) {
+    verifies("SWR-CNF-008", Technique::kBackToBack);
+    Rules<Number> rules;
+    for (const char* const name : {"a", "b", "c", "d", "e", "f", "g"}) {
+        rules.push_back({name, "SWR-A-001", &is_always, [](Number& number, Judge& judge) {
+                             judge.expect(++number.value < 12, "twelve steps");
+                         }});
+    }
+
+    EXPECT_EQ(run_randomly(make(rules), 7U, 1000U).findings.at(0),
+              "random order, seed 7, after 12 steps: rule 'b' (SWR-A-001): twelve steps; sequence: 2 3 0 3 5 "
+              "6 5 0 6 0 6 1");
+}
+
+TEST(RuleRunnerTest, TheFixedOrderEndsAfterEightStepsPerRule) {
+    verifies("SWR-CNF-009", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto run_with = [](int value) {
+        return run_in_order(
+            make({{"up", "SWR-A-001", &is_always, &add_one},
+                  {"at", "SWR-A-002", [value](const Number& number) { return number.value == value; },
+                   &add_one}}));
+    };
+    EXPECT_EQ(run_with(15).to_text(), "2 rules, 1 sequences, 16 steps, 17 states\n");
+    const Report late = run_with(16);
+    ASSERT_EQ(late.findings.size(), 1U);
+    EXPECT_EQ(late.step_count, 16U);
+    EXPECT_EQ(late.findings[0].find("fixed order, after 16 steps: rule 'at' (SWR-A-002) never ran"), 0U);
+}
+
+TEST(RuleRunnerTest, TheFixedOrderPrefersTheLeastAppliedRuleAndThenTheFirst) {
+    verifies("SWR-CNF-008", Technique::kEquivalenceClasses);
+    Rules<Number> rules{{"a", "SWR-A-001", &is_always, &add_one}, {"b", "SWR-A-002", &is_always, &add_one}};
+    rules.push_back({"at five", "SWR-A-003", [](const Number& number) { return number.value == 5; },
+                     [](Number&, Judge& judge) { judge.expect(false, "end"); }});
+
+    EXPECT_EQ(run_in_order(make(rules)).findings.at(0),
+              "fixed order, after 6 steps: rule 'at five' (SWR-A-003): end; sequence: 0 1 0 1 0 2");
+}
+
+/// A port of which only one may exist at a time.
+struct Exclusive {
+    explicit Exclusive(int& users) : users_(users) { EXPECT_EQ(++users_, 1); }
+    ~Exclusive() { --users_; }
+    Exclusive(const Exclusive&) = delete;
+    Exclusive& operator=(const Exclusive&) = delete;
+    std::string describe_state() const { return ""; }
+
+  private:
+    int& users_;
+};
+
+TEST(RuleRunnerTest, APortEndsBeforeTheNextOneBeginsAndBeforeTheReport) {
+    verifies("SWR-CNF-010", Technique::kInterface);
+    int users = 0;
+    int trials = 0;
+    const Rules<Exclusive> rules{
+        {"a", "SWR-A-001", [](const Exclusive&) { return true; }, [](Exclusive&, Judge&) {}},
+        {"b", "SWR-A-002", [](const Exclusive&) { return true; }, [](Exclusive&, Judge&) {}}};
+    const TrialFactory factory = make_trials<Exclusive>(rules, [&users, &trials] {
+        ++trials;
+        return std::make_unique<Exclusive>(users);
+    });
+
+    const Report report = explore(factory, 2U);
+    EXPECT_EQ(users, 0);
+    EXPECT_EQ(report.sequence_count, 4U);
+    EXPECT_EQ(trials, 2 + 4) << "the sequences of one rule, and of two";
+}
+
 TEST(RuleRunnerTest, AFindingNamesSeedSequenceRuleAndRequirementAndEndsTheRun) {
     verifies("SWR-CNF-008", Technique::kErrorGuessing, Polarity::kViolation);
     const Report report = run_randomly(make(make_steps(1)), 7U, 1000U);
@@ -107,6 +179,8 @@ TEST(RuleRunnerTest, ARuleThatNeverRanIsAFindingInEachOrder) {
         ASSERT_EQ(report.findings.size(), 1U);
         EXPECT_NE(report.findings[0].find("rule 'never' (SWR-A-003) never ran"), std::string::npos);
     }
+    std::swap(rules.front(), rules.back());
+    EXPECT_FALSE(run_in_order(make(rules)).is_kept()) << "also for the first rule";
 }
 
 TEST(RuleRunnerTest, AStateWithoutApplicableRuleIsAFinding) {
@@ -122,7 +196,11 @@ TEST(RuleRunnerTest, AStateWithoutApplicableRuleIsAFinding) {
 
 TEST(RuleRunnerTest, WithoutMissingRulesThereIsNoFinding) {
     verifies("SWR-CNF-009");
-    EXPECT_TRUE(run_randomly(make(make_steps(10)), 1U, 100U).is_kept());
+    const Report report = run_randomly(make(make_steps(10)), 1U, 100U);
+    EXPECT_TRUE(report.is_kept());
+    EXPECT_EQ(report.step_count, 100U);
+    EXPECT_TRUE(run_randomly(make(make_steps(10)), 1U, 0U).is_kept())
+        << "the fixed order runs what is missing";
 }
 
 TEST(RuleRunnerTest, EveryOrderIsAppliedOnce) {
@@ -144,6 +222,33 @@ TEST(RuleRunnerTest, AFindingInEveryOrderShowsAShortestSequence) {
     ASSERT_EQ(report.findings.size(), 1U);
     EXPECT_EQ(report.findings[0],
               "every order, depth 2, after 2 steps: rule 'up' (SWR-A-002): too high; sequence: 1 1");
+}
+
+TEST(RuleRunnerTest, AFindingInTheFirstStepShowsASequenceOfOneRule) {
+    verifies("SWR-CNF-010", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(explore(make(make_steps(1)), 3U).findings.at(0),
+              "every order, depth 1, after 1 steps: rule 'up' (SWR-A-002): too high; sequence: 1");
+}
+
+TEST(RuleRunnerTest, ADepthOfZeroAndAMissingPortAreContractViolations) {
+    verifies("SWR-CNF-010", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_CHECK_FAILS(static_cast<void>(explore(make(make_steps(10)), 0U)), "rule_runner.cpp", 2);
+    EXPECT_CHECK_FAILS(static_cast<void>(replay([] { return nullptr; }, {})), "rule_runner.cpp", 1);
+}
+
+TEST(JudgeTest, TheFirstFailedExpectationIsKept) {
+    verifies("SWR-CNF-008", Technique::kEquivalenceClasses);
+    Judge sut;
+    sut.expect(true, "a");
+    sut.expect_equal(1, 1, "b");
+    sut.expect_equal(Instant{2}, Instant{2}, "c");
+    EXPECT_FALSE(sut.has_finding());
+
+    sut.expect_equal(Instant{3}, Instant{4}, "d");
+    sut.expect_equal(5, 6, "e");
+    sut.expect(false, "f");
+    EXPECT_TRUE(sut.has_finding());
+    EXPECT_EQ(sut.get_finding(), "d: 3, expected 4");
 }
 
 TEST(RuleRunnerTest, SelectedRulesAreAppliedWithoutTheOthers) {
@@ -175,7 +280,7 @@ TEST(RuleRunnerTest, ANondeterministicPortIsAFinding) {
         },
         2U);
 
-    ASSERT_FALSE(report.is_kept());
+    ASSERT_EQ(report.findings.size(), 1U);
     EXPECT_NE(report.findings[0].find("led to a different state"), std::string::npos) << report.to_text();
 }
 

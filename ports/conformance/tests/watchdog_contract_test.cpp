@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "mamori/ports/conformance/rule_runner.hpp"
 #include "mamori/trace/verifies.hpp"
@@ -27,12 +29,22 @@ enum class WatchdogFlaw {
     kTakesServiceWhenOpen,
     kLateServiceHidesIt,
     kRefusesInTime,
+    kHidesItsRelay,
+    kShowsItsRelayOpen,
 };
 
 class FlawedWatchdog final : public WatchdogRig, public safety::Watchdog {
   public:
-    /// @param[in] step time of each reading of the clock.
-    FlawedWatchdog(WatchdogFlaw flaw, Duration step) : flaw_(flaw), step_(step) {}
+    /// @param[in]  step  time of each reading of the clock.
+    /// @param[out] calls receives one line per request, unless it is nullptr.
+    FlawedWatchdog(WatchdogFlaw flaw, Duration step, std::string* calls)
+        : flaw_(flaw), step_(step), calls_(calls) {
+        note("new");
+    }
+
+    ~FlawedWatchdog() override { note("end"); }
+    FlawedWatchdog(const FlawedWatchdog&) = delete;
+    FlawedWatchdog& operator=(const FlawedWatchdog&) = delete;
 
     safety::Watchdog& get_watchdog() override { return *this; }
     Duration get_timeout() const override { return kTimeout; }
@@ -40,12 +52,17 @@ class FlawedWatchdog final : public WatchdogRig, public safety::Watchdog {
         now_ = now_ + step_;
         return now_;
     }
-    void let_pass(Duration time) override { now_ = now_ + time; }
-    bool has_expired() override {
-        check();
-        return is_open_;
+    void let_pass(Duration time) override {
+        note("wait " + std::to_string(time.ns));
+        now_ = now_ + time;
     }
-    Status service(Instant) noexcept override {
+    bool has_expired() override {
+        note("look");
+        check();
+        return (is_open_ && !has(WatchdogFlaw::kHidesItsRelay)) || has(WatchdogFlaw::kShowsItsRelayOpen);
+    }
+    Status service(Instant now) noexcept override {
+        note(now == now_ ? "service" : "service at another time");
         check_unless_hidden();
         if (has(WatchdogFlaw::kClosesAgain)) {
             is_open_ = false;
@@ -63,6 +80,11 @@ class FlawedWatchdog final : public WatchdogRig, public safety::Watchdog {
     static constexpr Duration kTimeout{1000};
 
     bool has(WatchdogFlaw flaw) const noexcept { return flaw_ == flaw; }
+    void note(const std::string& call) {
+        if (calls_ != nullptr) {
+            *calls_ += call + "\n";
+        }
+    }
     void check_unless_hidden() noexcept {
         if (!has(WatchdogFlaw::kLateServiceHidesIt)) {
             check();
@@ -79,14 +101,16 @@ class FlawedWatchdog final : public WatchdogRig, public safety::Watchdog {
 
     WatchdogFlaw flaw_;
     Duration step_;
+    std::string* calls_;
     mutable Instant now_{};
     Instant serviced_at_{};
     bool is_started_{false};
     bool is_open_{false};
 };
 
-TrialFactory make(WatchdogFlaw flaw, Duration step) {
-    return make_watchdog_trials([flaw, step] { return std::make_unique<FlawedWatchdog>(flaw, step); });
+TrialFactory make(WatchdogFlaw flaw, Duration step, std::string* calls = nullptr) {
+    return make_watchdog_trials(
+        [flaw, step, calls] { return std::make_unique<FlawedWatchdog>(flaw, step, calls); });
 }
 
 struct FlawCase {
@@ -120,7 +144,9 @@ INSTANTIATE_TEST_SUITE_P(
         FlawCase{WatchdogFlaw::kClosesAgain, "a service was accepted though the relay is open"},
         FlawCase{WatchdogFlaw::kTakesServiceWhenOpen, "a service was accepted though the relay is open"},
         FlawCase{WatchdogFlaw::kLateServiceHidesIt, "a service was accepted though the relay is open"},
-        FlawCase{WatchdogFlaw::kRefusesInTime, "a service in time was rejected"}));
+        FlawCase{WatchdogFlaw::kRefusesInTime, "a service in time was rejected"},
+        FlawCase{WatchdogFlaw::kHidesItsRelay, "the relay is closed though the timeout has elapsed"},
+        FlawCase{WatchdogFlaw::kShowsItsRelayOpen, "the relay opened before the timeout"}));
 
 TEST(WatchdogContractTest, ACompliantWatchdogIsAcceptedInEachOrder) {
     verifies("SWR-CNF-006", Technique::kStateTransition);
@@ -137,6 +163,45 @@ TEST(WatchdogContractTest, TimeThatPassesDuringReadingsHidesNoLargeDefect) {
           WatchdogFlaw::kTakesServiceWhenOpen, WatchdogFlaw::kRefusesInTime}) {
         EXPECT_FALSE(run_in_order(make(flaw, 10_ns)).is_kept()) << static_cast<int>(flaw);
     }
+}
+
+TEST(WatchdogContractTest, EachRuleRequestsWhatItsNameStates) {
+    verifies("SWR-CNF-006", Technique::kBoundaryValues);
+    std::string calls;
+    EXPECT_TRUE(run_in_order(make(WatchdogFlaw::kNone, 0_ns, &calls)).is_kept());
+    EXPECT_EQ(calls,
+              "new\nwait 2000\nlook\n"
+              "service\nlook\n"
+              "service\nlook\n"
+              "wait 250\nlook\n"
+              "wait 750\nlook\nservice\nlook\n"
+              "wait 1001\nservice\nlook\n"
+              "service\nlook\n"
+              "wait 2000\nlook\n"
+              "end\nnew\nlook\n"
+              "wait 2000\nlook\n"
+              "service\nlook\n"
+              "wait 2000\nlook\nend\n");
+}
+
+TEST(WatchdogContractTest, AWaitForALimitSubtractsTheTimeOfTheReadingsAndIsNeverNegative) {
+    verifies("SWR-CNF-006", Technique::kBoundaryValues);
+    for (const auto& [step, wait] : {std::make_pair(0_ns, "1001"), std::make_pair(1_ns, "997"),
+                                     std::make_pair(250_ns, "1"), std::make_pair(400_ns, "0")}) {
+        std::string calls;
+        EXPECT_TRUE(replay(make(WatchdogFlaw::kNone, step, &calls), {1U, 5U}).is_kept());
+        EXPECT_EQ(calls, "new\nservice\nlook\nwait " + std::string{wait} + "\nservice\nlook\nend\n");
+    }
+}
+
+TEST(WatchdogContractTest, TheStateContainsTheQuartersOfTheTimeoutSinceTheLastService) {
+    verifies("SWR-CNF-006", Technique::kStateTransition);
+    EXPECT_EQ(list_states(make(WatchdogFlaw::kNone, 0_ns), {0U, 1U, 3U, 3U, 2U, 3U, 3U, 3U, 3U, 6U, 9U}),
+              (std::vector<std::string>{"0 0", "0 0", "1 0", "1 1", "1 2", "1 0", "1 1", "1 2", "1 3", "1 4",
+                                        "2 0", "0 0"}));
+    EXPECT_EQ(list_states(make(WatchdogFlaw::kNone, 450_ns), {1U}).back(), "1 4") << "at most four";
+    EXPECT_EQ(list_states(make(WatchdogFlaw::kNone, 300_ns), {1U}).back(), "1 3")
+        << "300 ns for each of the three readings";
 }
 
 TEST(WatchdogContractTest, EachRuleHasANameOfItsOwnAndARequirement) {

@@ -28,8 +28,14 @@ enum class HostFlaw {
     kStepEndsBeforeItBegins,
     kLateStepEndsInTime,
     kRunsAbandonedStepLater,
+    kEntersOneAbandonedStep,  ///< permitted
     kEntersAllAbandonedSteps,
     kNeverSaysReturned,
+    kForgetsReturnOfAHang,
+    kStepsOverlap,
+    kCountedStepEndsLate,
+    kRunsOneStepMore,
+    kWakesEarly,
 };
 
 class ExactHost final : public WindowHost {
@@ -38,12 +44,14 @@ class ExactHost final : public WindowHost {
 
     Instant get_now() const noexcept override { return now_; }
     Instant get_step_end() const noexcept override { return step_end_; }
-    bool has_returned(std::size_t) const noexcept override { return flaw_ != HostFlaw::kNeverSaysReturned; }
+    bool has_returned(std::size_t) const noexcept override {
+        return flaw_ != HostFlaw::kNeverSaysReturned && !is_return_forgotten_;
+    }
 
     std::size_t run_within(const Work& work, Instant deadline) noexcept override {
         run_left_over(work.window);
-        if (has(HostFlaw::kClockGoesBack)) {
-            now_ = now_ - 1_ms;
+        if (has(HostFlaw::kClockGoesBack) && now_ > Instant{}) {
+            now_ = now_ - 2_us;
         }
         const bool is_disturbed = has(HostFlaw::kNeedsOthersToReturn) && is_hang_out_;
         for (std::size_t i = 0U; i < work.count; ++i) {
@@ -55,6 +63,10 @@ class ExactHost final : public WindowHost {
                 step_end_ = now_ - 1_ns;
             } else if (has(HostFlaw::kLateStepEndsInTime) && !is_in_time) {
                 step_end_ = cut_off;
+            } else if (has(HostFlaw::kStepsOverlap) && is_in_time && i + 1U < work.count) {
+                step_end_ = step_end_ + 1_ns;
+            } else if (has(HostFlaw::kCountedStepEndsLate) && is_in_time && i + 1U == work.count) {
+                step_end_ = deadline + 1_ns;
             }
             if (!plan.is_hang) {
                 run(work, i);
@@ -64,12 +76,18 @@ class ExactHost final : public WindowHost {
             }
             now_ = now_ + plan.time;
         }
+        if (has(HostFlaw::kRunsOneStepMore)) {
+            run(work, work.count);
+        }
         const bool is_one_less = has(HostFlaw::kCountsTooFew) && work.count > 1U;
         return is_one_less ? work.count - 1U : has(HostFlaw::kCountsTooMany) ? work.count + 1U : work.count;
     }
 
     void set_plans(const std::vector<StepPlan>& plans) { plans_ = plans; }
-    void advance_to(Instant instant) { now_ = instant > now_ ? instant : now_; }
+    void advance_to(Instant instant) {
+        const Instant until = has(HostFlaw::kWakesEarly) ? instant - 1_ns : instant;
+        now_ = until > now_ ? until : now_;
+    }
     void release() { is_hang_out_ = false; }
 
   private:
@@ -98,15 +116,18 @@ class ExactHost final : public WindowHost {
     std::size_t cut(const Work& work, std::size_t i, Instant cut_off, const StepPlan& plan) noexcept {
         now_ = has(HostFlaw::kDoesNotCut) ? now_ + plan.time : has(HostFlaw::kCutsTooEarly) ? now_ : cut_off;
         is_hang_out_ = is_hang_out_ || plan.is_hang;
+        is_return_forgotten_ = is_hang_out_ && has(HostFlaw::kForgetsReturnOfAHang);
         if (has(HostFlaw::kRunsAbandonedStepLater) && i + 1U < work.count) {
             left_over_ = work;
             left_over_.first = work.first + i + 1U;
             is_left_over_ = true;
         }
-        if (has(HostFlaw::kEntersAllAbandonedSteps)) {
+        const bool is_one_entered = has(HostFlaw::kEntersOneAbandonedStep) && !plan.is_hang;
+        if (is_one_entered || has(HostFlaw::kEntersAllAbandonedSteps)) {
             const Instant answered_at = now_;
+            const std::size_t end = is_one_entered ? i + 2U : work.count;
             now_ = step_end_;
-            for (std::size_t rest = i + 1U; rest < work.count; ++rest) {
+            for (std::size_t rest = i + 1U; rest < work.count && rest < end; ++rest) {
                 run(work, rest);
             }
             now_ = answered_at;
@@ -128,6 +149,7 @@ class ExactHost final : public WindowHost {
     Work left_over_{};
     bool is_left_over_{false};
     bool is_hang_out_{false};
+    bool is_return_forgotten_{false};
 };
 
 class ExactHostRig final : public HostRig {
