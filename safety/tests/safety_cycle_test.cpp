@@ -70,16 +70,18 @@ class FakeMachine final : public SafetyCycle {
 
 Watched g_guard{"guard"};
 Watched g_controller{"controller"};
+Watched g_logger{"logger"};
 constexpr auto kSystem = safety::system(
-    frame(kFrame), window("all", 0_us, kFrame, budget(kFrame), run(g_guard, g_controller)),
+    frame(kFrame), window("all", 0_us, kFrame, budget(kFrame), run(g_guard, g_controller, g_logger)),
     faults<Fault::kFast, Fault::kSlip, Fault::kSilent, Fault::kLate, Fault::kSelfTest, Fault::kBrake,
            Fault::kWarm>(),
     react(Fault::kFast, Reaction::kSto, within(2_ms)), react(Fault::kSlip, Reaction::kSs1, within(3_ms)),
     react(Fault::kSilent, Reaction::kSs2, within(2_ms)), react(Fault::kLate, Reaction::kSto, within(1_ms)),
     react(Fault::kSelfTest, Reaction::kSto, within(2_ms)), react(Fault::kBrake, Reaction::kSto, within(2_ms)),
     react(Fault::kWarm, Reaction::kDegrade, within(2_ms)), confirm(Fault::kSlip, {3U}, {5U}),
-    supervise(g_guard, alive(2U, 3U), deadline(100_us)),
+    confirm(Fault::kWarm, {1U}, {9U}), supervise(g_guard, alive(2U, 3U), deadline(100_us)),
     supervise(g_controller, alive(2U, 3U), deadline(100_us), raises(Fault::kSilent)),
+    supervise(g_logger, alive(2U, 3U), deadline(100_us), raises(Fault::kWarm)),
     cycle(StopBounds{20_ms, 20_ms}, BrakeLimits{10_ms, true}, WatchdogWindow{500_us, 4_ms},
           torque_feedback(kTorqueFeedback), tolerated_lateness(50_us), on_late_reaction(raises(Fault::kLate)),
           on_failed_self_test(raises(Fault::kSelfTest)), on_unconfirmed_brakes(raises(Fault::kBrake))));
@@ -120,6 +122,7 @@ class SafetyCycleTest : public ::testing::Test {
         if (is_guard_running_) {
             state_.get_observer().get_records()[0U].note_run(now_, now_ + 10_us);
         }
+        state_.get_observer().get_records()[2U].note_run(now_, now_ + 10_us);
         if (is_controller_running_) {
             state_.get_observer().get_records()[1U].note_run(now_, now_ + 10_us);
         }
@@ -169,10 +172,10 @@ TEST_F(SafetyCycleTest, TheTableHoldsEverythingThatIsStated) {
     EXPECT_EQ(kSystem.windows.size(), 1U);
     EXPECT_EQ(kSystem.faults.size(), kFaultCount);
     EXPECT_EQ(kSystem.reactions[1U].within, 3_ms);
-    ASSERT_EQ(kSystem.confirmations.size(), 1U);
+    ASSERT_EQ(kSystem.confirmations.size(), 2U);
     EXPECT_EQ(kSystem.confirmations[0U].fault, static_cast<FaultIndex>(Fault::kSlip));
     EXPECT_EQ(kSystem.confirmations[0U].healing.cycles, 5U);
-    ASSERT_EQ(kSystem.supervised.size(), 2U);
+    ASSERT_EQ(kSystem.supervised.size(), 3U);
     EXPECT_EQ(kSystem.supervised[0U].watch.component, &g_guard);
     EXPECT_EQ(kSystem.supervised[0U].fault, kNoFault);
     EXPECT_EQ(kSystem.supervised[1U].watch.limits.deadline.longest, 100_us);
@@ -241,7 +244,8 @@ TEST_F(SafetyCycleTest, EventsAreWrittenOnceAndOnlyToALog) {
     FakeMachine silent{state, nullptr};
     ASSERT_EQ(silent.initialize(), Status::kOk);
     EXPECT_EQ(silent.on_execute({0, now_}), Status::kOk);
-    EXPECT_EQ(silent.get_state(), SafeState::kSelfTest);
+    EXPECT_EQ(silent.on_execute({0, now_ + kFrame}), Status::kOk);
+    EXPECT_EQ(silent.get_state(), SafeState::kStandby) << "the change of state is an event";
 }
 
 // ---- Rows of the table ----
@@ -291,6 +295,54 @@ TEST_F(SafetyCycleTest, AnExpiredComponentRaisesItsFault) {
     EXPECT_EQ(step(), SafeState::kProtectiveStopSs2);
     EXPECT_TRUE(is_latched(Fault::kSilent));
     EXPECT_EQ(watchdog_.services, services + 1) << "its failure is a fault, not a matter of the watchdog";
+}
+
+TEST_F(SafetyCycleTest, AResetDoesNotClearTheFaultOfAComponentThatIsStillSilent) {
+    verifies("SWR-CYC-004", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    is_controller_running_ = false;
+    sut_.inputs.is_standing = true;
+    for (int i = 0; i < 40; ++i) {
+        sut_.inputs.reset_button = i % 2 == 1;
+        step();
+        ASSERT_TRUE(i < 2 || is_latched(Fault::kSilent)) << i;
+    }
+}
+
+TEST_F(SafetyCycleTest, AfterAHoldAComponentThatRunsAgainCanBeReset) {
+    verifies("SWR-CYC-004", Technique::kStateTransition);
+    operate();
+    is_controller_running_ = false;
+    sut_.inputs.is_standing = true;
+    for (int i = 0; i < 5; ++i) {
+        step();
+    }
+    ASSERT_EQ(sut_.get_state(), SafeState::kStandstillHold);
+    is_controller_running_ = true;
+    for (int i = 0; i < 5; ++i) {
+        step();
+    }
+    sut_.inputs.reset_button = true;
+
+    EXPECT_EQ(step(), SafeState::kStandby);
+    EXPECT_FALSE(is_latched(Fault::kSilent));
+    EXPECT_TRUE(sut_.outputs.torque_enable) << "until the brakes have closed";
+    sut_.inputs.reset_button = false;
+    is_obeying_ = false;
+    sut_.inputs.has_torque = true;
+    sut_.inputs.are_brakes_closed = false;
+    for (int i = 0; i < 9; ++i) {
+        ASSERT_EQ(step(), SafeState::kStandby) << "torque that is wanted contradicts nothing, " << i;
+    }
+}
+
+TEST_F(SafetyCycleTest, TheModeSelectsTheReaction) {
+    verifies("SWR-CYC-004", Technique::kStateTransition, Polarity::kViolation);
+    operate();
+    sut_.inputs.mode = kSystemModeMax;
+    set_present(Fault::kWarm, true);
+
+    EXPECT_EQ(step(), SafeState::kSafe) << "STO in an invalid mode, Degrade in mode 0";
 }
 
 TEST_F(SafetyCycleTest, AnExpiredComponentWithoutAFaultStopsTheService) {

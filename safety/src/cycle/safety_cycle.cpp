@@ -28,13 +28,29 @@ Status SafetyCycle::apply_table() noexcept {
         }
     }
     for (const SuperviseRow& row : state_.supervised_) {
-        const Status result =
+        Status result =
             state_.supervision_.watch(state_.supervision_.find(*row.watch.component), row.watch.limits);
+        if (result == Status::kOk) {
+            result = require_healing(row);
+        }
         if (result != Status::kOk) {
             return result;
         }
     }
     return Status::kOk;
+}
+
+/// A silent component is found once in its expired_cycles. Its fault must not heal in between.
+Status SafetyCycle::require_healing(const SuperviseRow& row) noexcept {
+    if (row.fault == kNoFault) {
+        return Status::kOk;
+    }
+    Healing healing = state_.faults_.get_record(row.fault).healing;
+    if (healing.cycles > row.watch.limits.alive.expired_cycles) {
+        return Status::kOk;
+    }
+    healing.cycles = row.watch.limits.alive.expired_cycles;
+    return state_.faults_.set_healing(row.fault, healing);
 }
 
 void SafetyCycle::decide(Instant now) noexcept {
@@ -47,7 +63,7 @@ void SafetyCycle::decide(Instant now) noexcept {
     inputs.self_test = combine(test(now), check_assumptions(now));
     report_faults(inputs.self_test, now);
     follow_reset(machine.reset_button);
-    const ReactionDemand demand = calc_reaction(state_.reactions_, state_.faults_);
+    const ReactionDemand demand = calc_reaction(state_.reactions_, state_.faults_, machine.mode);
     measure_reaction(demand, machine.applied, now);
     inputs.now = now;
     inputs.demand = demand.reaction;
@@ -66,10 +82,12 @@ void SafetyCycle::decide(Instant now) noexcept {
         write_event(now, Severity::kWarning, CycleEvent::kReactionBegun,
                     static_cast<std::int64_t>(demand.reaction));
     }
-    command(state, state_.brakes_.apply(state, now));
+    const StopOutputs outputs = state_.brakes_.apply(state, now);
+    command(state, outputs);
     state_.flow_.report(FlowPoint::kCommanded, now);
     const GlobalStatus flow = to_global_status(state_.flow_.supervisor.step(now));
     serve_watchdog(calc_worst(health, flow), state_.machine_.is_consistent() && !inputs.lock_out, now);
+    was_torque_wanted_ = outputs.torque_enable;
     stepped_at_ = now;
     has_stepped_ = true;
 }
@@ -124,12 +142,12 @@ bool SafetyCycle::find_presence(FaultIndex fault, SelfTestStatus self_test, Inst
     return result;
 }
 
-/// In the safe state each frame is judged anew: a component that still hangs expires again in every frame,
-/// one that runs again is silent no more, and the fault register alone remembers that it was.
+/// Once the fault is latched, the supervision starts again. A component that still hangs expires again, at
+/// the latest after its expired_cycles; until then, the healing of the fault is not complete.
 bool SafetyCycle::is_expired(const SuperviseRow& row) noexcept {
     const std::size_t index = state_.supervision_.find(*row.watch.component);
     const bool result = state_.supervision_.get_local_status(index) == LocalStatus::kExpired;
-    if (result && state_.machine_.get_state() == SafeState::kSafe) {
+    if (result && state_.faults_.is_latched(row.fault)) {
         static_cast<void>(state_.supervision_.acknowledge(index));
     }
     return result;
@@ -151,8 +169,7 @@ bool SafetyCycle::is_sto_unconfirmed(bool has_torque, Instant now) noexcept {
     if (!so_far.has_value()) {
         return true;
     }
-    const bool is_contradicted =
-        has_torque && !calc_stop_outputs(state_.machine_.get_state()).torque_enable && has_stepped_;
+    const bool is_contradicted = has_torque && !was_torque_wanted_ && has_stepped_;
     const Duration elapsed = calc_elapsed(stepped_at_, now);
     const Duration missing_for = is_contradicted ? so_far.get_value() + elapsed : Duration{0};
     state_.torque_despite_sto_for_.set(missing_for);

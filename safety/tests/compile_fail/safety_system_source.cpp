@@ -20,9 +20,12 @@ Reader stranger{"stranger"};
 Decider decider;
 
 enum class Fault { kFast, kSilent, kLate, kSelfTest, kUndeclared };
-enum class Stop { kAtOnce = 5 };
+enum class Stop { kGently = 1, kAtOnce = 5 };
+enum class OtherFault { kFast };
 
-#ifdef MAMORI_DEFECT_REACTION
+#if defined(MAMORI_DEFECT_OTHER_REACTION)
+constexpr auto kAnswer = Stop::kGently;
+#elif defined(MAMORI_DEFECT_REACTION)
 constexpr auto kAnswer = Stop::kAtOnce;
 #else
 constexpr auto kAnswer = Reaction::kSto;
@@ -142,6 +145,12 @@ constexpr auto kSystem = mamori::safety::system(
 #endif
 #ifdef MAMORI_DEFECT_CONFIRM_UNDECLARED
     confirm(Fault::kUndeclared, {2U}),
+#endif
+#ifdef MAMORI_DEFECT_CONFIRM_OTHER_FAULT
+    confirm(OtherFault::kFast, {2U}),
+#endif
+#ifdef MAMORI_DEFECT_RAISE_OTHER_FAULT
+    supervise(stranger, alive(), deadline(1_ms), raises(OtherFault::kFast)),
 #endif
 #ifdef MAMORI_DEFECT_CONFIRM_TWICE
     confirm(Fault::kFast, {2U}),

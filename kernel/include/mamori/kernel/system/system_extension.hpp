@@ -23,11 +23,21 @@
 
 namespace mamori::extension {
 
-/// Contribution of a part of a layer above: the part itself.
-template <typename Part>
+/// Contribution of a part of a layer above. @tparam Tag identifies the kind of part. @tparam FaultEnums
+/// enumerations of the faults that it names: all faults of a system are of one enumeration.
+template <typename Tag, typename... FaultEnums>
 struct ExtensionTypes : mamori::detail::NoTypes {
-    using Extensions = mamori::detail::TypeList<Part>;
+    using Extensions = mamori::detail::TypeList<Tag>;
+    using FaultTypes = mamori::detail::TypeList<FaultEnums...>;
 };
+
+template <typename T, typename List>
+struct IsListOf;
+template <typename T, typename... Ts>
+struct IsListOf<T, mamori::detail::TypeList<Ts...>> : std::bool_constant<(std::is_same_v<T, Ts> && ...)> {};
+/// Whether each reaction of a table is an enumerator of `Reaction`. @tparam Types of the table.
+template <typename Reaction, typename Types>
+inline constexpr bool kHasReactionsOf = IsListOf<Reaction, typename Types::ReactionTypes>::value;
 
 template <typename Part, typename List>
 struct PartCounter;

@@ -3,7 +3,7 @@
 /// Logical supervision of the safety cycle itself: in each frame it begins, judges and commands, each once
 /// and in this order. A program counter that jumps over the judgement leaves the watchdog unserved.
 ///
-/// @satisfies SWR-CYC-006      Design: docs/design/safety_cycle.md#watchdog
+/// @satisfies SWR-CYC-006      Design: docs/design/safety_cycle.md#order
 #ifndef MAMORI_SAFETY_DECISION_FLOW_HPP
 #define MAMORI_SAFETY_DECISION_FLOW_HPP
 

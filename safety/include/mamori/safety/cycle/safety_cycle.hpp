@@ -40,6 +40,7 @@ struct CycleInputs {
     bool reset_button{false};                       ///< level
     bool may_start{false};                          ///< the start is bumpless
     StopOutputs applied{true, true, false, false};  ///< what the outputs of the last frame were
+    std::size_t mode{0U};  ///< of the system; 0 without modes. An invalid one demands STO
 };
 
 /// Thread safety: none; the executive calls it. Time: O(components + faults * reactions).
@@ -94,6 +95,7 @@ class SafetyCycle : public Component {
     void report_faults(SelfTestStatus self_test, Instant now) noexcept;
     bool find_presence(FaultIndex fault, SelfTestStatus self_test, Instant now) noexcept;
     bool is_expired(const SuperviseRow& row) noexcept;
+    Status require_healing(const SuperviseRow& row) noexcept;
     void follow_reset(bool reset_button) noexcept;
     bool is_sto_unconfirmed(bool has_torque, Instant now) noexcept;
     void measure_reaction(const ReactionDemand& demand, const StopOutputs& applied, Instant now) noexcept;
@@ -109,6 +111,7 @@ class SafetyCycle : public Component {
     Reaction worst_reaction_{Reaction::kNone};
     Duration longest_reaction_{0};
     bool has_stepped_{false};
+    bool was_torque_wanted_{false};  ///< in the frame before
     bool is_self_testing_{false};
     bool is_reaction_late_{false};
     bool is_watchdog_refused_{false};

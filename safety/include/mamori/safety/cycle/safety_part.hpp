@@ -57,7 +57,7 @@ constexpr FaultIndex to_fault(Fault fault) noexcept {
 }  // namespace detail
 
 /// A component that does not run for this long is expired.
-/// @param[in] late_cycles, expired_cycles major frames without a run; 1 <= late <= expired.
+/// @param[in] late_cycles, expired_cycles safety cycles without a run; 1 <= late <= expired.
 constexpr AliveLimits alive(std::uint32_t late_cycles = 2U, std::uint32_t expired_cycles = 3U) noexcept {
     return {late_cycles, expired_cycles};
 }
@@ -71,41 +71,47 @@ template <typename Fault>
 struct Raises {
     Fault fault;
 };
-/// The fault that an expired component raises. Without it, the watchdog is not served while the component is
-/// late or expired.
+/// The fault that an expired component raises; a late one raises nothing. Without it, the watchdog is not
+/// serviced while the component is late or expired.
 template <typename Fault>
 constexpr Raises<Fault> raises(Fault fault) noexcept {
     return {fault};
 }
 
+/// Kinds of parts.
+struct SuperviseTag {};
+struct ConfirmTag {};
+
 /// Made by supervise().
+template <typename... Faults>
 struct SupervisePart {
-    using Types = extension::ExtensionTypes<SupervisePart>;
+    using Types = extension::ExtensionTypes<SuperviseTag, Faults...>;
     SuperviseRow row{};
 };
 /// Supervises a component of the table. Its failure prevents the service of the watchdog.
 /// @param[in] component run by a window; must outlive the table. @param[in] silence alive(...).
 /// @param[in] duration deadline(...).
-constexpr SupervisePart supervise(const Component& component, AliveLimits silence,
-                                  DeadlineLimits duration) noexcept {
+constexpr SupervisePart<> supervise(const Component& component, AliveLimits silence,
+                                    DeadlineLimits duration) noexcept {
     return {{watch(component, {silence, duration, SupervisionScope::kGlobal}), kNoFault}};
 }
 /// The same for a component whose failure is a declared fault. @param[in] fault raises(...).
 template <typename Fault>
-constexpr SupervisePart supervise(const Component& component, AliveLimits silence, DeadlineLimits duration,
-                                  Raises<Fault> fault) noexcept {
+constexpr SupervisePart<Fault> supervise(const Component& component, AliveLimits silence,
+                                         DeadlineLimits duration, Raises<Fault> fault) noexcept {
     return {{watch(component, {silence, duration, SupervisionScope::kLocal}), detail::to_fault(fault.fault)}};
 }
 
 /// Made by confirm().
+template <typename Fault>
 struct ConfirmPart {
-    using Types = extension::ExtensionTypes<ConfirmPart>;
+    using Types = extension::ExtensionTypes<ConfirmTag, Fault>;
     ConfirmRow row{};
 };
 /// When a fault is latched, and when it may be acknowledged. Without it: in its first cycle, after one cycle
 /// without it. @param[in] fault declared by faults<...>(). @param[in] confirmation, healing is_valid().
 template <typename Fault>
-constexpr ConfirmPart confirm(Fault fault, Confirmation confirmation, Healing healing = {}) noexcept {
+constexpr ConfirmPart<Fault> confirm(Fault fault, Confirmation confirmation, Healing healing = {}) noexcept {
     return {{detail::to_fault(fault), confirmation, healing}};
 }
 

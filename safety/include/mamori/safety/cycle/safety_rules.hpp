@@ -214,7 +214,10 @@ constexpr auto show_faulty() noexcept {
 template <const auto& kTable>
 constexpr bool keeps_safety_rules() noexcept {
     if constexpr (extension::keeps_rules<kTable>()) {
-        constexpr SafetyFinding kFinding = detail::check_safety(kTable);
+        using Types = typename std::remove_const_t<std::remove_reference_t<decltype(kTable)>>::Types;
+        constexpr SafetyFinding kFinding = extension::kHasReactionsOf<Reaction, Types>
+                                               ? detail::check_safety(kTable)
+                                               : SafetyFinding{SafetyRule::kReactionKnown, 0U};
         using Faulty = typename decltype(detail::show_faulty<kTable, kFinding.rule, kFinding.row>())::Type;
         return SafetyTableIsSound<kFinding.rule, Faulty>::value;
     }

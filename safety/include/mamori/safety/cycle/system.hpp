@@ -32,30 +32,28 @@ template <typename PartTypes>
 struct SafetySystem : DescribedSystem<PartTypes> {
     static constexpr std::size_t kFaultCount = PartTypes::Faults::kSize;
     static constexpr std::size_t kCycleCount = extension::kPartCount<CyclePart, PartTypes>;
-    std::array<SuperviseRow, extension::kPartCount<SupervisePart, PartTypes>> supervised{};
-    std::array<ConfirmRow, extension::kPartCount<ConfirmPart, PartTypes>> confirmations{};
+    std::array<SuperviseRow, extension::kPartCount<SuperviseTag, PartTypes>> supervised{};
+    std::array<ConfirmRow, extension::kPartCount<ConfirmTag, PartTypes>> confirmations{};
     CycleRow cycle{};
 };
 
-template <typename Types>
+template <typename Types, typename... Faults>
 constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
-                        const SupervisePart& part) noexcept {
-    for (SuperviseRow& row : builder.table.supervised) {
-        if (row.watch.component == nullptr) {
-            row = part.row;
-            return;
-        }
+                        const SupervisePart<Faults...>& part) noexcept {
+    std::size_t next = 0U;
+    for (const SuperviseRow& row : builder.table.supervised) {
+        next += row.watch.component != nullptr ? 1U : 0U;
     }
+    builder.table.supervised[next] = part.row;
 }
-template <typename Types>
+template <typename Types, typename Fault>
 constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
-                        const ConfirmPart& part) noexcept {
-    for (ConfirmRow& row : builder.table.confirmations) {
-        if (row.fault == kNoFault) {
-            row = part.row;
-            return;
-        }
+                        const ConfirmPart<Fault>& part) noexcept {
+    std::size_t next = 0U;
+    for (const ConfirmRow& row : builder.table.confirmations) {
+        next += row.fault != kNoFault ? 1U : 0U;
     }
+    builder.table.confirmations[next] = part.row;
 }
 template <typename Types>
 constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
