@@ -108,8 +108,6 @@ inline constexpr mamori::safety::BrakeLimits kBrakes{kBrakeFeedbackTime, true};
 /// The power-up self test must see this many good frames in a row, and within this time.
 inline constexpr std::uint32_t kSelfTestFrames = 20U;
 inline constexpr mamori::Duration kSelfTestTime = 500_ms;
-/// Silent frames of a component: two are late, three are the end.
-inline constexpr mamori::safety::AliveLimits kAliveLimits{2U, 3U};
 /// Longest run of a component of the safety partition, and of the controller.
 inline constexpr mamori::Duration kSafetyComponentMax = 100_us;
 inline constexpr mamori::Duration kControllerMax = 350_us;
