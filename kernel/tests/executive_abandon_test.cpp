@@ -258,7 +258,7 @@ TEST_P(ExecutiveLateEntryTest, AWindowThatCouldNotBeStoppedRunsNoCycleAnyMore) {
     host_.late.reset();
     EXPECT_EQ(open(0U, 2000), WindowOutcome::kStopped);
     EXPECT_EQ(component_.deactivated, 1);
-    EXPECT_FALSE(component_.out.is_staged()) << "what it wrote while it stopped is thrown away";
+    EXPECT_FALSE(component_.out.is_staged()) << "what it wrote while it stopped is discarded";
     EXPECT_FALSE(sut_.get_context(0U).is_running());
     EXPECT_EQ(open(0U, 3000), WindowOutcome::kStopped);
     EXPECT_EQ(component_.executed, executed);
