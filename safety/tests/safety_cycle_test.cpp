@@ -152,6 +152,22 @@ class SafetyCycleTest : public ::testing::Test {
         return state_.get_faults().is_latched(static_cast<FaultIndex>(fault));
     }
 
+    /// @return the only place of these bytes in the state; nullptr: none, or several.
+    template <std::size_t kSize>
+    unsigned char* find_once(const std::array<unsigned char, kSize>& forms) {
+        auto* const image =
+            reinterpret_cast<unsigned char*>(&state_);  // NOLINT: memory that changes by itself
+        unsigned char* place = nullptr;
+        std::size_t count = 0U;
+        for (std::size_t i = 0U; i + kSize <= sizeof(state_); ++i) {
+            if (std::memcmp(image + i, forms.data(), kSize) == 0) {
+                place = image + i;
+                ++count;
+            }
+        }
+        return count == 1U ? place : nullptr;
+    }
+
     SafetyStorage<kSystem> storage_;
     SpyWatchdog watchdog_;
     AssumptionMonitor assumptions_{kAssumptions};
@@ -387,18 +403,10 @@ TEST_F(SafetyCycleTest, AStateThatChangesByItselfStopsTheService) {
     const std::array<unsigned char, 2U> forms{
         static_cast<unsigned char>(SafeState::kOperational),
         static_cast<unsigned char>(~static_cast<unsigned>(SafeState::kOperational))};
-    auto* const image = reinterpret_cast<unsigned char*>(&state_);  // NOLINT: memory that changes by itself
-    std::size_t places = 0U;
-    std::size_t place = 0U;
-    for (std::size_t i = 0U; i + forms.size() <= sizeof(state_); ++i) {
-        if (std::memcmp(image + i, forms.data(), forms.size()) == 0) {
-            place = i;
-            ++places;
-        }
-    }
-    ASSERT_EQ(places, 1U);
+    unsigned char* const place = find_once(forms);
+    ASSERT_NE(place, nullptr);
     const int services = watchdog_.services;
-    sut_.after_command = [image, place] { image[place] = 0U; };
+    sut_.after_command = [place] { *place = 0U; };
 
     step();
     EXPECT_EQ(watchdog_.services, services);
@@ -597,17 +605,9 @@ TEST_F(SafetyCycleTest, AFlippedBitOfTheTimeWithTorqueLocksOut) {
     // The time is zero: eight bytes of zeros, and their complement behind them.
     std::array<unsigned char, 16U> forms{};
     std::memset(forms.data() + 8U, 0xFF, 8U);
-    auto* const image = reinterpret_cast<unsigned char*>(&state_);  // NOLINT: memory that changes by itself
-    std::size_t places = 0U;
-    std::size_t place = 0U;
-    for (std::size_t i = 0U; i + forms.size() <= sizeof(state_); i += alignof(Duration)) {
-        if (std::memcmp(image + i, forms.data(), forms.size()) == 0) {
-            place = i;
-            ++places;
-        }
-    }
-    ASSERT_EQ(places, 1U);
-    image[place] = 1U;
+    unsigned char* const place = find_once(forms);
+    ASSERT_NE(place, nullptr);
+    *place = 1U;
 
     EXPECT_EQ(step(), SafeState::kLockedOut);
 }
