@@ -29,6 +29,8 @@ enum class ArmFault : std::uint16_t {
     kSelfTestFailed,      ///< power-up self test did not pass in time
     kMeasurementStale,    ///< reading or judgement of this frame did not come: reader or monitor does not run
     kReactionLate,        ///< the outputs did not show a reaction within its time
+    kBrakeTestOld,        ///< the last passed brake test is too long ago
+    kStopNotFollowed,     ///< the arm leaves the ramp of its stop, or the place of its hold
     kCount,               ///< number of faults
 };
 inline constexpr auto kArmFaultCount = static_cast<std::size_t>(ArmFault::kCount);
@@ -42,9 +44,10 @@ constexpr std::uint32_t to_bit(ArmFault fault) noexcept {
 
 /// Spelling of a fault in logs and reports, indexed by its number.
 inline constexpr std::array<const char*, kArmFaultCount> kArmFaultNames{
-    "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",     "FollowingError", "Overspeed",
-    "PositionLimit",      "TorqueDeviation",    "ControllerSilent", "CommandStale",   "PowerLost",
-    "BrakeFault",         "SelfTestFailed",     "MeasurementStale", "ReactionLate"};
+    "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",    "FollowingError",
+    "Overspeed",          "PositionLimit",      "TorqueDeviation", "ControllerSilent",
+    "CommandStale",       "PowerLost",          "BrakeFault",      "SelfTestFailed",
+    "MeasurementStale",   "ReactionLate",       "BrakeTestOld",    "StopNotFollowed"};
 
 }  // namespace safe_arm
 

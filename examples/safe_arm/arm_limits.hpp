@@ -105,7 +105,27 @@ inline constexpr mamori::Duration kTorqueFeedbackTime = 20_ms;
 /// Brake feedback may contradict the command for this long: opening and closing delay with margin.
 inline constexpr mamori::Duration kBrakeFeedbackTime = 100_ms;
 inline constexpr mamori::safety::BrakeLimits kBrakes{kBrakeFeedbackTime, true};
-/// The power-up self test must see this many good frames in a row, and within this time.
+/// Stop and hold under torque: stiffness [N m/rad] and damping [N m s/rad]. The smallest
+/// inertia of a joint bounds the damping (delay of speed and output: 4 ms), its largest one the stiffness.
+inline constexpr mamori::safety::JointVector kStopStiffness{6000.0, 6000.0, 2500.0, 2500.0,
+                                                            200.0,  200.0,  200.0};
+inline constexpr mamori::safety::JointVector kStopDamping{300.0, 300.0, 90.0, 90.0, 5.0, 5.0, 5.0};
+/// Share of the speed that a stop takes away in each frame: it ends after 150 ms.
+inline constexpr double kStopRampStep = kFrameS / 0.15;
+/// Distance between the ramp of a stop, or the place of a hold, and the measured position [rad].
+inline constexpr double kStopDeviationRad = 0.03;
+/// Feedback of a switch-off path may contradict its command for this long.
+inline constexpr mamori::Duration kPathTime = 20_ms;
+/// Brake test: all drives push with their torque limit against the closed brakes, first forwards, then
+/// backwards: ramp, then hold. A sound brake (1.5 times the limit) yields up to 2 mrad.
+inline constexpr mamori::Duration kBrakeTestRamp = 20_ms;
+inline constexpr mamori::Duration kBrakeTestHold = 30_ms;
+inline constexpr double kBrakeTestTravelRad = 0.0025;
+/// A start needs a passed brake test that is not older than this; a longer operation is stopped.
+inline constexpr mamori::Duration kBrakeTestInterval{std::int64_t{8} * 3600 * 1'000'000'000};
+/// The self test begins with this many good frames in a row, and not before this time: links between
+/// processes need a few frames to start. It ends within kSelfTestTime.
+inline constexpr mamori::Duration kQuietTime = 40_ms;
 inline constexpr std::uint32_t kSelfTestFrames = 20U;
 inline constexpr mamori::Duration kSelfTestTime = 500_ms;
 /// Longest run of a component of the safety partition, and of the controller.

@@ -34,6 +34,7 @@ Status ArmReader::on_execute(ContextHandle) noexcept {
     }
     result.measured_torque_nm = inputs_.measured_torque_nm;
     result.torque_enabled = inputs_.torque_enabled;
+    result.relay_closed = inputs_.relay_closed;
     result.power_good = inputs_.power_good;
     result.start_button = inputs_.start_button;
     result.reset_button = inputs_.reset_button;

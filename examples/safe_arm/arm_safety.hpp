@@ -21,7 +21,8 @@ inline constexpr auto kArmReactions = mamori::parts(
                    ArmFault::kFollowingError, ArmFault::kOverspeed, ArmFault::kPositionLimit,
                    ArmFault::kTorqueDeviation, ArmFault::kControllerSilent, ArmFault::kCommandStale,
                    ArmFault::kPowerLost, ArmFault::kBrakeFault, ArmFault::kSelfTestFailed,
-                   ArmFault::kMeasurementStale, ArmFault::kReactionLate>(),
+                   ArmFault::kMeasurementStale, ArmFault::kReactionLate, ArmFault::kBrakeTestOld,
+                   ArmFault::kStopNotFollowed>(),
     mamori::react(ArmFault::kEncoderImplausible, Reaction::kSs1, mamori::within(2_ms)),
     mamori::react(ArmFault::kEncoderDiscrepancy, Reaction::kSto, mamori::within(2_ms)),
     mamori::react(ArmFault::kEncoderStuck, Reaction::kSto, mamori::within(2_ms)),
@@ -29,13 +30,15 @@ inline constexpr auto kArmReactions = mamori::parts(
     mamori::react(ArmFault::kOverspeed, Reaction::kSto, mamori::within(2_ms)),
     mamori::react(ArmFault::kPositionLimit, Reaction::kSto, mamori::within(2_ms)),
     mamori::react(ArmFault::kTorqueDeviation, Reaction::kSto, mamori::within(2_ms)),
-    mamori::react(ArmFault::kControllerSilent, Reaction::kSto, mamori::within(2_ms)),
-    mamori::react(ArmFault::kCommandStale, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kControllerSilent, Reaction::kSs1, mamori::within(2_ms)),
+    mamori::react(ArmFault::kCommandStale, Reaction::kSs1, mamori::within(2_ms)),
     mamori::react(ArmFault::kPowerLost, Reaction::kSto, mamori::within(2_ms)),
-    mamori::react(ArmFault::kBrakeFault, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kBrakeFault, Reaction::kSs1, mamori::within(2_ms)),
     mamori::react(ArmFault::kSelfTestFailed, Reaction::kSto, mamori::within(2_ms)),
     mamori::react(ArmFault::kMeasurementStale, Reaction::kSto, mamori::within(2_ms)),
-    mamori::react(ArmFault::kReactionLate, Reaction::kSto, mamori::within(2_ms)));
+    mamori::react(ArmFault::kReactionLate, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kBrakeTestOld, Reaction::kSs1, mamori::within(2_ms)),
+    mamori::react(ArmFault::kStopNotFollowed, Reaction::kSto, mamori::within(2_ms)));
 
 /// @param[in] lateness_max latest window start that is tolerated; it depends on the platform.
 constexpr auto make_arm_safety(mamori::Duration lateness_max) noexcept {

@@ -39,8 +39,7 @@ int run_cost_command(const RunOptions& options) {
     if (!refusal.empty()) {
         return fail(kExitUsage, refusal);
     }
-    mamori::sim::FaultPlan fault = options.fault;
-    fault.at = fault.at + kMotionStart;
+    const mamori::sim::FaultPlan fault = mamori::sim::delay(options.fault, kMotionStart);
     mamori::sim::ArmPlant plant{*loaded.model};
     plant.reset(track.calc_point(0.0).position_rad);
     mamori::sim::ComputedTorqueController law{*loaded.model};

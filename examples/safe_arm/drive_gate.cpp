@@ -28,18 +28,48 @@ Status DriveGate::on_execute(ContextHandle context) noexcept {
     // The supervisor decides in every frame. A decision of an earlier frame is no decision, and one that a
     // gate cut off in that frame had no chance to use is still "new" in the next.
     const bool is_of_this_frame = stop.is_new() && stop.calc_age(context.now) < kFrame;
-    if (is_of_this_frame && stop.read().torque_enable) {
-        result.torque_enable = true;
-        result.brake_release = stop.read().brake_release;
-        for (std::size_t j = 0U; j < kArmJointCount; ++j) {
-            result.torque_nm[j] = saturate(command.read().torque_nm[j], kTorqueLimitNm[j]);
-        }
+    if (is_of_this_frame) {
+        const StopCommand& decision = stop.read();
+        result.relay_close = decision.relay_close;
+        result.torque_enable = decision.torque_enable;
+        result.brake_release = decision.torque_enable && decision.brake_release;
+        result.source = decision.torque_source;
+        result.torque_nm = calc_torque(decision);
+        result.stop_setpoint_rad = stop_loop_.get_setpoint();
+    } else {
+        stop_loop_.release();
     }
     outputs_.torque_nm = result.torque_nm;
     outputs_.torque_enable = result.torque_enable;
     outputs_.brake_release = result.brake_release;
+    outputs_.relay_close = result.relay_close;
     drive.write(result);
     return Status::kOk;
+}
+
+JointVector DriveGate::calc_torque(const StopCommand& decision) noexcept {
+    JointVector wanted_nm{};
+    if (!decision.torque_enable || decision.torque_source != TorqueSource::kStopLoop) {
+        stop_loop_.release();
+    }
+    if (!decision.torque_enable) {
+        return wanted_nm;
+    }
+    switch (decision.torque_source) {
+        case TorqueSource::kController:
+            wanted_nm = command.read().torque_nm;
+            break;
+        case TorqueSource::kStopLoop:
+            wanted_nm = stop_loop_.step(arm_state.read(), outputs_.torque_nm);
+            break;
+        case TorqueSource::kBrakeTest:
+            wanted_nm = scale(kTorqueLimitNm, decision.brake_test_share, 0.0);
+            break;
+    }
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        wanted_nm[j] = saturate(wanted_nm[j], kTorqueLimitNm[j]);
+    }
+    return wanted_nm;
 }
 
 Status DriveGate::on_deactivated(ContextHandle) noexcept {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Last component before the drives: passes the controller's torque on only while the supervisor allows it,
-/// and falls back to the safe outputs by itself when the supervisor falls silent.
+/// holds the arm and tests its brakes when the supervisor says so, and falls back to the safe outputs by
+/// itself when the supervisor falls silent.
 ///
-/// @satisfies SWR-SAF-009, SWR-SAF-010      Design: docs/design/safe_arm.md#components
+/// @satisfies SWR-SAF-009, SWR-SAF-010, SWR-SAF-025      Design: docs/design/safe_arm.md#components
 #ifndef EXAMPLES_SAFE_ARM_DRIVE_GATE_HPP
 #define EXAMPLES_SAFE_ARM_DRIVE_GATE_HPP
 
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
 #include "messages.hpp"
+#include "stop_loop.hpp"
 
 namespace safe_arm {
 
@@ -21,8 +23,10 @@ class DriveGate final : public mamori::Component {
 
     mamori::InPort<StopCommand> stop{*this, "stop"};
     mamori::InPort<TorqueCommand> command{*this, "command"};
+    mamori::InPort<JointState> arm_state{*this, "arm_state"};
     mamori::OutPort<DriveCommand> drive{*this, "drive"};
-    using Ports = mamori::Ports<&DriveGate::stop, &DriveGate::command, &DriveGate::drive>;
+    using Ports =
+        mamori::Ports<&DriveGate::stop, &DriveGate::command, &DriveGate::arm_state, &DriveGate::drive>;
 
     mamori::Status on_execute(mamori::ContextHandle context) noexcept override;
     /// The outputs are safe whenever this component does not run.
@@ -30,7 +34,10 @@ class DriveGate final : public mamori::Component {
     mamori::Status on_aborting(mamori::ContextHandle context) noexcept override;
 
   private:
+    JointVector calc_torque(const StopCommand& decision) noexcept;
+
     mamori::safety::ArmOutputs& outputs_;
+    StopLoop stop_loop_{};
 };
 
 }  // namespace safe_arm

@@ -23,6 +23,7 @@ Status JointMonitor::on_activated(ContextHandle) noexcept {
     standstill_ = StandstillDetector{make_uniform(kStandstillRadS), kStandstillTime};
     brake_contradiction_for_ = {};
     torque_absent_for_ = {};
+    relay_open_for_ = {};
     has_history_ = false;
     return Status::kOk;
 }
@@ -39,13 +40,11 @@ Status JointMonitor::on_execute(ContextHandle context) noexcept {
         result.velocity_rad_s[j] =
             (result.position_rad[j] - past_rad_[oldest_][j]) / (static_cast<double>(kSpeedCycles) * kFrameS);
     }
-    result.faults |= judge_stuck(now) | judge_motion(result) | judge_torque(now) | judge_brakes(now);
+    result.faults |=
+        judge_stuck(now) | judge_motion(result) | judge_torque(now) | judge_brakes(now) | judge_power(now);
     const bool is_fresh = is_command_fresh(context.now);
-    if (is_torque_on() && !is_fresh) {
+    if (is_controlled() && !is_fresh) {
         result.faults |= to_bit(ArmFault::kCommandStale);
-    }
-    if (!now.power_good) {
-        result.faults |= to_bit(ArmFault::kPowerLost);
     }
     result.is_standing = standstill_.step(result.velocity_rad_s, context.now);
     result.is_setpoint_near =
@@ -116,7 +115,7 @@ std::uint32_t JointMonitor::judge_stuck(const JointReading& now) noexcept {
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
         const bool has_moved = now.position_a_rad[j] != last_.position_a_rad[j] ||
                                now.position_b_rad[j] != last_.position_b_rad[j];
-        if (has_moved || !is_torque_on()) {
+        if (has_moved || !is_controlled()) {
             stuck_since_rad_[j] = setpoint_rad[j];
         }
     }
@@ -136,10 +135,14 @@ std::uint32_t JointMonitor::judge_motion(const JointState& now) const noexcept {
     std::uint32_t faults =
         flag(calc_speed_violations(now.velocity_rad_s, kSafeSpeedRadS), ArmFault::kOverspeed) |
         flag(outside, ArmFault::kPositionLimit);
-    if (is_torque_on()) {
+    if (is_controlled()) {
         faults |= flag(calc_following_errors(command.read().setpoint_rad, now.position_rad,
                                              make_uniform(kFollowingErrorRad)),
                        ArmFault::kFollowingError);
+    } else if (is_torque_on() && drive.read().source == TorqueSource::kStopLoop) {
+        faults |= flag(calc_following_errors(drive.read().stop_setpoint_rad, now.position_rad,
+                                             make_uniform(kStopDeviationRad)),
+                       ArmFault::kStopNotFollowed);
     }
     return faults;
 }
@@ -157,6 +160,13 @@ std::uint32_t JointMonitor::judge_torque(const JointReading& now) noexcept {
     }
     return flag(calc_torque_deviations(drive.read().torque_nm, now.measured_torque_nm, kTorqueDeviationNm),
                 ArmFault::kTorqueDeviation);
+}
+
+/// A relay that opens by itself cuts the supply as well.
+std::uint32_t JointMonitor::judge_power(const JointReading& now) noexcept {
+    const bool is_contradicted = drive.has_value() && drive.read().relay_close && !now.relay_closed;
+    relay_open_for_ = is_contradicted ? relay_open_for_ + kFrame : Duration{0};
+    return !now.power_good || relay_open_for_ > kPathTime ? to_bit(ArmFault::kPowerLost) : 0U;
 }
 
 /// One brake that sticks is enough, in either direction.

@@ -4,7 +4,8 @@
 /// controller messages are inside their limits. It reports what it sees in this cycle; debouncing and
 /// latching are the fault register's work.
 ///
-/// @satisfies SWR-SAF-005, SWR-SAF-006, SWR-SAF-007, SWR-SAF-008      Design: docs/design/safe_arm.md#monitor
+/// @satisfies SWR-SAF-005, SWR-SAF-006, SWR-SAF-007, SWR-SAF-008, SWR-SAF-029
+/// Design: docs/design/safe_arm.md#monitor
 #ifndef EXAMPLES_SAFE_ARM_JOINT_MONITOR_HPP
 #define EXAMPLES_SAFE_ARM_JOINT_MONITOR_HPP
 
@@ -45,8 +46,12 @@ class JointMonitor final : public mamori::Component {
     std::uint32_t judge_stuck(const JointReading& now) noexcept;
     std::uint32_t judge_motion(const JointState& now) const noexcept;
     std::uint32_t judge_torque(const JointReading& now) noexcept;
+    std::uint32_t judge_power(const JointReading& now) noexcept;
     std::uint32_t judge_brakes(const JointReading& now) noexcept;
     bool is_command_fresh(mamori::Instant now) const noexcept;
+    bool is_controlled() const noexcept {
+        return is_torque_on() && drive.read().source == TorqueSource::kController;
+    }
     bool is_torque_on() const noexcept { return drive.has_value() && drive.read().torque_enable; }
 
     std::array<JointVector, kSpeedCycles> past_rad_{};  ///< trusted positions; the oldest at `oldest_`
@@ -60,6 +65,7 @@ class JointMonitor final : public mamori::Component {
     StandstillDetector standstill_{make_uniform(kStandstillRadS), kStandstillTime};
     mamori::Duration brake_contradiction_for_{};
     mamori::Duration torque_absent_for_{};
+    mamori::Duration relay_open_for_{};
     bool has_history_{false};
 };
 

@@ -10,8 +10,8 @@ using mamori::Duration;
 using mamori::Instant;
 using mamori::sim::FaultKind;
 
-constexpr Instant kStartPressed{100000000};
-constexpr Instant kStartReleased{200000000};
+constexpr Instant kStartPressed{250000000};
+constexpr Instant kStartReleased{350000000};
 
 }  // namespace
 
@@ -36,6 +36,7 @@ void Machine::apply_software_faults(Instant now) noexcept {
             controller_time = is_active ? mamori::ports::virtual_time::kNever : kControllerTime;
             break;
         case FaultKind::kSupervisorHang:
+        case FaultKind::kProcessorStops:
             supervisor_time = is_active ? mamori::ports::virtual_time::kNever : kSafetyComponentTime;
             break;
         case FaultKind::kMessageLost:
@@ -53,6 +54,10 @@ void Machine::apply_software_faults(Instant now) noexcept {
         case FaultKind::kTorqueRunaway:
         case FaultKind::kPowerLoss:
         case FaultKind::kBrakeFade:
+        case FaultKind::kBrakeStuckOpen:
+        case FaultKind::kBrakesStuckOpen:
+        case FaultKind::kStoIgnored:
+        case FaultKind::kRelayStuck:
             break;  // faults of the plant
     }
     channel.set_fault(channel_fault);
@@ -64,7 +69,9 @@ void Machine::apply_software_faults(Instant now) noexcept {
 void Machine::apply(std::uint64_t, Instant now, Duration length) noexcept {
     watchdog.check(now + length);
     plant_.set_watchdog_expired(watchdog.has_expired());
-    if (plant_.step(outputs, length) != mamori::Status::kOk) {
+    const bool has_stopped = fault_.kind == FaultKind::kProcessorStops && mamori::sim::is_active(fault_, now);
+    applied_ = has_stopped ? applied_ : outputs;
+    if (plant_.step(applied_, length) != mamori::Status::kOk) {
         is_plant_sound_ = false;
         simulation.request_stop();
     }
@@ -76,9 +83,9 @@ void Machine::apply(std::uint64_t, Instant now, Duration length) noexcept {
     facts.reaction = supervisor.get_reaction();
     facts.is_watchdog_expired = watchdog.has_expired();
     facts.setpoint_rad = controller.command.get_published().setpoint_rad;
-    facts.torque_enable = outputs.torque_enable;
-    facts.brake_release = outputs.brake_release;
-    facts.is_stopping = !outputs.torque_enable || supervisor.stop.get_published().stop_requested;
+    facts.torque_enable = applied_.torque_enable;
+    facts.brake_release = applied_.brake_release;
+    facts.is_stopping = !applied_.torque_enable || supervisor.stop.get_published().stop_requested;
     record_.add_frame(facts, plant_);
 }
 

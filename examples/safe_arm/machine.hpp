@@ -36,6 +36,7 @@ class Machine final : public mamori::Devices {
     mamori::ports::virtual_time::VirtualHost& host_;
     mamori::sim::FaultPlan fault_;
     RunRecord& record_;
+    mamori::safety::ArmOutputs applied_{};  ///< those of the frame before once the processor has stopped
     bool is_plant_sound_{true};
 };
 

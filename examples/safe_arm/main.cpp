@@ -54,8 +54,7 @@ int run_scenario(const safe_arm::RunOptions& options) {
     }
     const auto motion_ns = static_cast<std::int64_t>(std::llround(track.get_duration_s() * 1.0e9));
     const Instant motion_end = Instant{} + safe_arm::kMotionStart + Duration{motion_ns};
-    mamori::sim::FaultPlan fault = options.fault;
-    fault.at = fault.at + safe_arm::kMotionStart;
+    const mamori::sim::FaultPlan fault = mamori::sim::delay(options.fault, safe_arm::kMotionStart);
 
     mamori::sim::ArmPlant plant{*loaded.model};
     plant.reset(track.calc_point(0.0).position_rad);

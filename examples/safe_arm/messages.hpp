@@ -27,6 +27,7 @@ struct JointReading {
     bool brakes_closed{true};    ///< feedback: all seven are closed
     bool brakes_open{false};     ///< feedback: all seven are open; neither, while they move or one sticks
     bool torque_enabled{false};  ///< feedback
+    bool relay_closed{false};    ///< feedback
     bool power_good{false};
     bool start_button{false};
     bool reset_button{false};
@@ -49,12 +50,22 @@ struct TorqueCommand {
     JointVector torque_nm{};
 };
 
+/// Where the torque of the drives comes from.
+enum class TorqueSource : std::uint8_t {
+    kController,
+    kStopLoop,   ///< the gate stops the arm and holds it
+    kBrakeTest,  ///< against closed brakes
+};
+
 /// The supervisor's decision for this cycle.
 struct StopCommand {
     mamori::safety::SafeState state{mamori::safety::SafeState::kSelfTest};
     bool torque_enable{false};
     bool brake_release{false};
     bool stop_requested{false};  ///< controlled stop along the path (SS1, SS2)
+    bool relay_close{false};     ///< second switch-off path
+    TorqueSource torque_source{TorqueSource::kController};
+    double brake_test_share{0.0};  ///< of the torque limit, -1 .. 1
 };
 
 /// What the drive gate gave to the drives.
@@ -62,15 +73,20 @@ struct DriveCommand {
     JointVector torque_nm{};
     bool torque_enable{false};
     bool brake_release{false};
+    bool relay_close{false};
+    TorqueSource source{TorqueSource::kController};
+    JointVector stop_setpoint_rad{};  ///< of the stop loop
 };
 
 }  // namespace safe_arm
 
 MAMORI_FIELDS(safe_arm::JointReading, position_a_rad, position_b_rad, measured_torque_nm, brakes_closed,
-              brakes_open, torque_enabled, power_good, start_button, reset_button)
+              brakes_open, torque_enabled, relay_closed, power_good, start_button, reset_button)
 MAMORI_FIELDS(safe_arm::JointState, position_rad, velocity_rad_s, faults, is_standing, is_setpoint_near)
 MAMORI_FIELDS(safe_arm::TorqueCommand, sequence, sent_at_ns, setpoint_rad, torque_nm)
-MAMORI_FIELDS(safe_arm::StopCommand, state, torque_enable, brake_release, stop_requested)
-MAMORI_FIELDS(safe_arm::DriveCommand, torque_nm, torque_enable, brake_release)
+MAMORI_FIELDS(safe_arm::StopCommand, state, torque_enable, brake_release, stop_requested, relay_close,
+              torque_source, brake_test_share)
+MAMORI_FIELDS(safe_arm::DriveCommand, torque_nm, torque_enable, brake_release, relay_close, source,
+              stop_setpoint_rad)
 
 #endif  // EXAMPLES_SAFE_ARM_MESSAGES_HPP

@@ -8,8 +8,6 @@
 namespace safe_arm {
 namespace {
 
-/// A controlled stop takes the path rate from 1 to 0 in this time [s].
-constexpr double kStopRampS = 0.15;
 /// The path is begun only from its first point [rad].
 constexpr double kPathStartRad = 0.01;
 
@@ -37,7 +35,6 @@ Status MotionController::on_execute(ContextHandle context) noexcept {
         // Bumpless: while no torque flows the setpoint is where the arm is.
         hold_rad_ = measured.position_rad;
         is_on_path_ = false;
-        path_rate_ = 0.0;
     } else {
         advance_path(context.now);
     }
@@ -62,27 +59,15 @@ void MotionController::advance_path(Instant now) noexcept {
         }
         is_on_path_ = is_at_start;
         path_time_s_ = 0.0;
-        path_rate_ = is_at_start ? 1.0 : 0.0;
     }
-    if (stop.read().stop_requested) {
-        path_rate_ = path_rate_ > kFrameS / kStopRampS ? path_rate_ - kFrameS / kStopRampS : 0.0;
-    }
-    path_time_s_ += path_rate_ * kFrameS;
+    path_time_s_ += is_on_path_ ? kFrameS : 0.0;
 }
 
 PathPoint MotionController::calc_setpoint() const noexcept {
     if (!is_on_path_) {
         return {hold_rad_, {}, {}};
     }
-    PathPoint point = track_->calc_point(path_time_s_);
-    const double ramp_per_s = stop.read().stop_requested && path_rate_ > 0.0 ? -1.0 / kStopRampS : 0.0;
-    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
-        // Chain rule along the path: d2q = q'' s'^2 + q' s''.
-        point.acceleration_rad_s2[j] =
-            point.acceleration_rad_s2[j] * path_rate_ * path_rate_ + point.velocity_rad_s[j] * ramp_per_s;
-        point.velocity_rad_s[j] *= path_rate_;
-    }
-    return point;
+    return track_->calc_point(path_time_s_);
 }
 
 }  // namespace safe_arm

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The non-safety component: follows the motion by computed torque (KDL) and brakes along the path when the
-/// supervisor asks for a controlled stop. The safety concept does not rely on it.
+/// The non-safety component: follows the motion by computed torque (KDL). The safety concept does not rely on
+/// it: stops are made by the drive gate.
 ///
 /// @satisfies SWR-SAF-012      Design: docs/design/safe_arm.md#components
 #ifndef EXAMPLES_SAFE_ARM_MOTION_CONTROLLER_HPP
@@ -49,7 +49,6 @@ class MotionController final : public mamori::Component {
     mamori::Instant motion_start_{};
     JointVector hold_rad_{};
     double path_time_s_{0.0};
-    double path_rate_{0.0};  ///< 0: standing on the path, 1: nominal speed
     bool is_on_path_{false};
     std::uint32_t sequence_{0U};
 };

@@ -201,6 +201,13 @@ std::string RunRecord::make_summary(const Closing& closing) const {
                                   : (is_once ? Json(to_seconds(mamori::sim::kOnceLength)) : Json(nullptr));
         fault["magnitude"] = uses_magnitude(fault_.kind) ? Json(fault_.magnitude) : Json(nullptr);
     }
+    Json latent = nullptr;
+    if (fault_.latent != mamori::sim::FaultKind::kNone) {
+        latent = get_name(fault_.latent);
+        if (uses_joint(fault_.latent)) {
+            latent = latent.get<std::string>() + ":" + std::to_string(fault_.latent_joint + 1U);
+        }
+    }
     std::array<char, 17> hash{};
     std::snprintf(hash.data(), hash.size(), "%016llx", static_cast<unsigned long long>(closing.trace_hash));
     const bool is_safe_by_relay = last_.is_watchdog_expired;
@@ -221,6 +228,7 @@ std::string RunRecord::make_summary(const Closing& closing) const {
         {"motion", options_.motion},
         {"model", options_.model},
         {"fault", fault},
+        {"latent", latent},
         {"trace_hash", hash.data()},
         {"simulated_s", static_cast<double>(closing.frames) * to_seconds(kFrame)},
         {"wall_s", closing.wall_s},

@@ -47,7 +47,7 @@ std::string make_name_table() {
     const Json table = {{"sources", {{"0", "supervisor"}}},
                         {"codes", codes},
                         {"arguments",
-                         {{"state", make_names(SafeState::kSelfTest, SafeState::kLockedOut)},
+                         {{"state", make_names(SafeState::kSelfTest, SafeState::kLockedHold)},
                           {"fault", faults},
                           {"assumption", assumptions},
                           {"reaction", make_names(Reaction::kNone, Reaction::kSto)}}}};

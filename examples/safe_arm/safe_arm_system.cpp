@@ -53,6 +53,7 @@ static constexpr auto kSafeArm = mamori::safety::system(
     mamori::connect(supervisor.stop, controller.stop, mamori::any_age()),
     mamori::connect(controller.command, channel.in, mamori::any_age()),
     mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
+    mamori::connect(monitor.state, gate.arm_state, mamori::any_age()),
     mamori::connect(channel.out, gate.command, mamori::any_age()),
     mamori::modelled_time(reader, kSafetyComponentTime), mamori::modelled_time(monitor, kSafetyComponentTime),
     mamori::modelled_time(supervisor, kSafetyComponentTime),

@@ -10,8 +10,10 @@ namespace safe_arm {
 using mamori::Instant;
 using namespace mamori::safety;  // NOLINT: this component is made of them
 
-CycleInputs SafetySupervisor::read_inputs(Instant) noexcept {
+CycleInputs SafetySupervisor::read_inputs(Instant at) noexcept {
     const JointReading& now = reading.read();
+    is_brake_test_old_ = is_over(brakes_tested_at_.read().get_value(), at, kBrakeTestInterval) ||
+                         !brakes_tested_at_.read().has_value();
     CycleInputs inputs{};
     inputs.is_standing = arm_state.read().is_standing;
     inputs.are_brakes_closed = now.brakes_closed;
@@ -19,36 +21,44 @@ CycleInputs SafetySupervisor::read_inputs(Instant) noexcept {
     inputs.start_button = now.start_button;
     inputs.reset_button = now.reset_button;
     inputs.may_start = arm_state.read().is_setpoint_near;
+    inputs.can_hold = true;  // by the gate; each fault of the encoders demands STO
     inputs.applied = {drive.read().torque_enable, drive.read().brake_release,
                       stop.get_published().stop_requested, false};
     return inputs;
 }
 
-/// Good means: nothing to report, brakes closed, torque off, and the watchdog watches: one that was never
-/// served would not. So many good frames in a row pass the test.
 SelfTestStatus SafetySupervisor::step_self_test(bool is_first, Instant now) noexcept {
     if (is_first) {
-        self_test_began_ = now;
-        good_frames_ = 0U;
+        start_up_.begin(now);
     }
-    const bool is_good = arm_state.read().faults == 0U && reading.read().brakes_closed &&
-                         !reading.read().torque_enabled && is_watchdog_served();
-    good_frames_ = is_good ? good_frames_ + 1U : 0U;
-    if (is_over(self_test_began_, now, kSelfTestTime)) {
-        return SelfTestStatus::kFailed;
+    const SelfTestStatus status =
+        start_up_.step({arm_state.read().faults == 0U && is_watchdog_served(), reading.read()}, now);
+    if (status == SelfTestStatus::kPassed) {
+        brakes_tested_at_.set(now);
     }
-    return good_frames_ >= kSelfTestFrames ? SelfTestStatus::kPassed : SelfTestStatus::kRunning;
+    return status;
 }
 
 bool SafetySupervisor::is_present(FaultIndex fault) noexcept {
     if (fault == to_index(ArmFault::kMeasurementStale)) {
         return !reading.is_new() || !arm_state.is_new();
     }
+    if (fault == to_index(ArmFault::kBrakeTestOld)) {
+        return is_brake_test_old_;
+    }
     return (arm_state.read().faults & (std::uint32_t{1U} << fault)) != 0U;
 }
 
 void SafetySupervisor::command(SafeState state, const StopOutputs& outputs) noexcept {
-    stop.write({state, outputs.torque_enable, outputs.brake_release, outputs.stop_requested});
+    const bool is_testing = state == SafeState::kSelfTest;
+    StopCommand result{state, outputs.torque_enable, outputs.brake_release, outputs.stop_requested};
+    // A machine that is locked out uses both paths.
+    result.relay_close = is_testing ? start_up_.is_relay_wanted() : state != SafeState::kLockedOut;
+    result.brake_test_share = is_testing ? start_up_.get_push() : 0.0;
+    result.torque_source =
+        is_testing ? TorqueSource::kBrakeTest
+                   : (outputs.stop_requested ? TorqueSource::kStopLoop : TorqueSource::kController);
+    stop.write(result);
 }
 
 }  // namespace safe_arm

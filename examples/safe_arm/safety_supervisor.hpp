@@ -4,15 +4,15 @@
 /// machine.
 ///
 /// @satisfies SWR-SAF-013, SWR-SAF-014, SWR-SAF-015, SWR-SAF-018, SWR-SAF-019, SWR-SAF-021, SWR-SAF-022
-/// @satisfies SWR-SAF-023      Design: docs/design/safe_arm.md#reactions
+/// @satisfies SWR-SAF-023, SWR-SAF-025, SWR-SAF-028      Design: docs/design/safe_arm.md#reactions
 #ifndef EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
 #define EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
 
-#include <cstdint>
-
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/safety/cycle/safety_cycle.hpp"
+#include "mamori/safety/redundancy/complement_stored.hpp"
 #include "messages.hpp"
+#include "start_up_check.hpp"
 
 namespace safe_arm {
 
@@ -33,12 +33,14 @@ class SafetySupervisor final : public mamori::safety::SafetyCycle {
   private:
     mamori::safety::CycleInputs read_inputs(mamori::Instant now) noexcept override;
     mamori::safety::SelfTestStatus step_self_test(bool is_first, mamori::Instant now) noexcept override;
+    bool wants_test_torque() noexcept override { return start_up_.is_torque_wanted(); }
     bool is_present(mamori::safety::FaultIndex fault) noexcept override;
     void command(mamori::safety::SafeState state,
                  const mamori::safety::StopOutputs& outputs) noexcept override;
 
-    std::uint32_t good_frames_{0U};
-    mamori::Instant self_test_began_{};
+    StartUpCheck start_up_{};
+    mamori::safety::ComplementStored<mamori::Instant> brakes_tested_at_{mamori::Instant{}};
+    bool is_brake_test_old_{false};
 };
 
 }  // namespace safe_arm

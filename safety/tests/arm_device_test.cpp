@@ -24,8 +24,8 @@ TEST(ArmDeviceTest, EveryFieldOfTheImageTravels) {
 
     visit_scalars(ArmInputs{}, inputs);
     visit_scalars(ArmOutputs{}, outputs);
-    EXPECT_EQ(inputs.scalars, 4U * kArmJointCount + 4U) << "two encoders, torque, brake; four switches";
-    EXPECT_EQ(outputs.scalars, kArmJointCount + 2U);
+    EXPECT_EQ(inputs.scalars, 4U * kArmJointCount + 5U) << "two encoders, torque, brake; five switches";
+    EXPECT_EQ(outputs.scalars, kArmJointCount + 3U);
 }
 
 TEST(ArmDeviceTest, DefaultOutputsCutTorqueAndCloseBrakes) {
@@ -34,6 +34,7 @@ TEST(ArmDeviceTest, DefaultOutputsCutTorqueAndCloseBrakes) {
 
     EXPECT_FALSE(outputs.torque_enable);
     EXPECT_FALSE(outputs.brake_release);
+    EXPECT_FALSE(outputs.relay_close);
     for (const double torque_nm : outputs.torque_nm) {
         EXPECT_EQ(torque_nm, 0.0);
     }

@@ -70,7 +70,7 @@ Key make_key(const Node& node) {
 std::vector<std::tuple<SafeStateInputs, bool>> make_all_inputs() {
     std::vector<std::tuple<SafeStateInputs, bool>> all;
     for (unsigned demand = 0U; demand <= 4U; ++demand) {
-        for (unsigned bits = 0U; bits < 32U; ++bits) {
+        for (unsigned bits = 0U; bits < 64U; ++bits) {
             SafeStateInputs inputs;
             inputs.demand = static_cast<Reaction>(demand);
             inputs.faults_cleared = true;
@@ -79,6 +79,7 @@ std::vector<std::tuple<SafeStateInputs, bool>> make_all_inputs() {
             inputs.reset_button = (bits & 2U) != 0U;
             inputs.standstill = (bits & 4U) != 0U;
             inputs.self_test = (bits & 8U) != 0U ? SelfTestStatus::kRunning : SelfTestStatus::kPassed;
+            inputs.brakes_failed = (bits & 32U) != 0U;
             all.emplace_back(inputs, (bits & 16U) != 0U);
         }
     }
@@ -92,6 +93,7 @@ Node advance(const Node& from, SafeStateInputs inputs, bool are_closed, std::vec
     inputs.now = from.last.now + Duration{1};
     const Duration elapsed = inputs.now - from.machine.get_entered_at();
     inputs.standstill = to.brakes.confirm(before, is_standing, are_closed, inputs.now);
+    inputs.brakes_failed = inputs.brakes_failed && to.brakes.is_waiting();
     const SafeState after = to.machine.step(inputs);
     to.outputs = to.brakes.apply(after, inputs.now);
     to.last = inputs;
@@ -174,7 +176,8 @@ TEST(BrakeSequencePropertyTest, SearchReachesEveryStateThatInputsLeadTo) {
         for (const Step& step : get_steps(has_contacts)) {
             reached.insert(step.after);
         }
-        EXPECT_EQ(reached.size(), kSafeStateCount - 1U) << "all but the locked-out one";
+        EXPECT_EQ(reached.size(), has_contacts ? kSafeStateCount : kSafeStateCount - 2U)
+            << "brakes without contacts never fail, and nothing else locks out";
         EXPECT_GT(get_steps(has_contacts).size(), 50000U);
     }
 }
@@ -211,7 +214,7 @@ TEST(BrakeSequencePropertyTest, BrakesCloseUnderTorqueAtTheEndOfAnSs1AndAfterThe
     expect_always([](const Step& step, bool) {
         const bool is_against = step.outputs.torque_enable && !step.outputs.brake_release;
         return !is_against || step.after == SafeState::kProtectiveStopSs1 ||
-               step.after == SafeState::kStandby;
+               step.after == SafeState::kStandby || step.after == SafeState::kLockedHold;
     });
 }
 
@@ -222,7 +225,8 @@ TEST(BrakeSequencePropertyTest, Ss1EndsByItsBrakesItsBoundOrSomethingWorse) {
         const bool has_ended = step.before == SafeState::kProtectiveStopSs1 && step.after != step.before;
         const bool have_bitten = has_contacts ? have_contacts_engaged(step) : step.closing >= kCloses.ns;
         const bool is_worse = step.demand == Reaction::kSto || step.elapsed >= kBounds.ss1_within;
-        return !has_ended || is_worse || (step.is_standing && have_bitten);
+        return !has_ended || is_worse || step.after == SafeState::kLockedHold ||
+               (step.is_standing && have_bitten);
     });
 }
 

@@ -278,7 +278,7 @@ TEST_F(BrakeSequenceTest, BrakesCloseInTheCycleInWhichTorqueGoes) {
 TEST_F(BrakeSequenceTest, NumberThatIsNoStateHasNeitherTorqueNorOpenBrakes) {
     verifies("SWR-FSM-034", Technique::kFaultInjection, Polarity::kViolation);
 
-    for (const unsigned value : {0U, 10U, 255U}) {
+    for (const unsigned value : {0U, 11U, 255U}) {
         ASSERT_TRUE(without_contacts_.apply(SafeState::kOperational, Instant{900}).brake_release);
         EXPECT_TRUE(without_contacts_.apply(static_cast<SafeState>(value), Instant{901}) == kOff) << value;
     }
@@ -411,6 +411,22 @@ TEST(BrakedMachineTest, PushDoesNotOpenTheBrakesOfAnSs1) {
         sut.inputs.start_button = !sut.inputs.start_button;
     }
     EXPECT_EQ(sut.machine.get_state(), SafeState::kSafe);
+}
+
+TEST_F(BrakeSequenceTest, BrakesAreWaitedForFromTheirCommandUntilTheirContactsReport) {
+    verifies("SWR-FSM-029", Technique::kStateTransition);
+    BrakeSequence sut{{Duration{10}, true}};
+    EXPECT_FALSE(sut.is_waiting());
+    static_cast<void>(sut.confirm(SafeState::kSafe, true, false, Instant{0}));
+    static_cast<void>(sut.apply(SafeState::kSafe, Instant{0}));
+    EXPECT_TRUE(sut.is_waiting());
+    EXPECT_FALSE(sut.is_overdue(Instant{10}));
+    EXPECT_TRUE(sut.is_overdue(Instant{11}));
+    static_cast<void>(sut.confirm(SafeState::kSafe, true, true, Instant{11}));
+    EXPECT_FALSE(sut.is_waiting());
+
+    static_cast<void>(without_contacts_.apply(SafeState::kSafe, Instant{0}));
+    EXPECT_FALSE(without_contacts_.is_waiting());
 }
 
 }  // namespace

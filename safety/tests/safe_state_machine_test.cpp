@@ -108,6 +108,20 @@ TEST_F(SafeStateMachineTest, StopSs1ThatIsNotConfirmedCutsTorqueAtItsBound) {
     EXPECT_EQ(step_at(Duration{200}), SafeState::kSafe);
 }
 
+TEST_F(SafeStateMachineTest, FailedBrakesKeepTorqueUntilStoLocksOut) {
+    verifies("SWR-FSM-037", Technique::kStateTransition);
+    operate();
+    ASSERT_EQ(demand(Reaction::kSs1), SafeState::kProtectiveStopSs1);
+    inputs_.brakes_failed = true;
+
+    EXPECT_EQ(step_at(Duration{200}), SafeState::kLockedHold)
+        << "at the bound, the hold comes before the timeout";
+    inputs_.brakes_failed = false;
+    inputs_.standstill = true;
+    EXPECT_EQ(clear_and_reset(), SafeState::kLockedHold);
+    EXPECT_EQ(demand(Reaction::kSto), SafeState::kLockedOut);
+}
+
 TEST_F(SafeStateMachineTest, StopThatIsNeverConfirmedEscalatesToTorqueOff) {
     verifies("SWR-FSM-004", Technique::kFaultInjection, Polarity::kViolation);
     operate();

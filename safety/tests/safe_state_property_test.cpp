@@ -41,7 +41,7 @@ std::vector<SafeStateInputs> make_all_inputs() {
     std::vector<SafeStateInputs> all;
     for (unsigned demand = 0U; demand <= 4U; ++demand) {
         for (unsigned self_test = 0U; self_test <= 2U; ++self_test) {
-            for (unsigned bits = 0U; bits < 64U; ++bits) {
+            for (unsigned bits = 0U; bits < 128U; ++bits) {
                 SafeStateInputs inputs;
                 inputs.demand = static_cast<Reaction>(demand);
                 inputs.self_test = static_cast<SelfTestStatus>(self_test);
@@ -51,6 +51,7 @@ std::vector<SafeStateInputs> make_all_inputs() {
                 inputs.faults_cleared = (bits & 8U) != 0U;
                 inputs.start_permitted = (bits & 16U) != 0U;
                 inputs.lock_out = (bits & 32U) != 0U;
+                inputs.brakes_failed = (bits & 64U) != 0U;
                 all.push_back(inputs);
             }
         }
@@ -169,6 +170,18 @@ TEST(SafeStatePropertyTest, LockedOutIsNeverLeft) {
     });
 }
 
+TEST(SafeStatePropertyTest, LockedHoldIsEnteredByFailedBrakesAndLeftForLockedOutOnly) {
+    verifies("SWR-FSM-037", Technique::kStateTransition, Polarity::kViolation);
+
+    expect_always([](const Step& step) {
+        if (step.before == SafeState::kLockedHold) {
+            return step.after == SafeState::kLockedHold || step.after == SafeState::kLockedOut;
+        }
+        return step.after != SafeState::kLockedHold ||
+               (step.before == SafeState::kProtectiveStopSs1 && step.inputs.brakes_failed);
+    });
+}
+
 TEST(SafeStatePropertyTest, MachineThatStopsNeverMovesAgainWithoutStandby) {
     verifies("SWR-FSM-002", Technique::kStateTransition, Polarity::kViolation);
 
@@ -189,7 +202,8 @@ TEST(SafeStatePropertyTest, DemandIsMetInTheCycleInWhichItIsMade) {
             case Reaction::kSs2:
                 return !is_moving(step.after);
             case Reaction::kSs1:
-                return !has_torque(step.after) || step.after == SafeState::kProtectiveStopSs1;
+                return !has_torque(step.after) || step.after == SafeState::kProtectiveStopSs1 ||
+                       step.after == SafeState::kLockedHold;
             case Reaction::kSto:
                 return !has_torque(step.after);
         }
@@ -214,7 +228,8 @@ TEST(SafeStatePropertyTest, NoStopOutlivesItsBound) {
                                   step.elapsed >= kBounds.ss2_within &&
                                   step.after == SafeState::kProtectiveStopSs2;
         const bool keeps_torque = step.before == SafeState::kProtectiveStopSs1 &&
-                                  step.elapsed >= kBounds.ss1_within && has_torque(step.after);
+                                  step.elapsed >= kBounds.ss1_within && has_torque(step.after) &&
+                                  step.after != SafeState::kLockedHold;
         return !stays_in_ss2 && !keeps_torque;
     });
 }

@@ -24,11 +24,12 @@ using Pair = std::pair<State, Event>;
 constexpr std::array<State, kSafeStateCount> kStates{
     State::kSelfTest,          State::kStandby,           State::kOperational,    State::kDegraded,
     State::kProtectiveStopSs2, State::kProtectiveStopSs1, State::kStandstillHold, State::kSafe,
-    State::kLockedOut};
+    State::kLockedOut,         State::kLockedHold};
 constexpr std::array<Event, kSafeStateEventCount> kEvents{
-    Event::kLockOut,     Event::kSelfTestFailed, Event::kDemandSto,           Event::kDemandSs1,
-    Event::kStopTimeout, Event::kDemandSs2,      Event::kStandstillConfirmed, Event::kDegrade,
-    Event::kReset,       Event::kRestore,        Event::kSelfTestPassed,      Event::kStart};
+    Event::kLockOut,      Event::kSelfTestFailed, Event::kDemandSto, Event::kDemandSs1,
+    Event::kBrakesFailed, Event::kStopTimeout,    Event::kDemandSs2, Event::kStandstillConfirmed,
+    Event::kDegrade,      Event::kReset,          Event::kRestore,   Event::kSelfTestPassed,
+    Event::kStart};
 
 /// What shall happen, said state by state; what is not named here leaves the state as it is.
 std::map<Pair, State> make_expected_moves() {
@@ -40,6 +41,8 @@ std::map<Pair, State> make_expected_moves() {
             moves[{state, Event::kDemandSto}] = State::kSafe;
         }
     }
+    moves[{State::kLockedHold, Event::kDemandSto}] = State::kLockedOut;
+    moves[{State::kProtectiveStopSs1, Event::kBrakesFailed}] = State::kLockedHold;
     moves[{State::kSelfTest, Event::kSelfTestPassed}] = State::kStandby;
     moves[{State::kStandby, Event::kStart}] = State::kOperational;
     for (const State unpowered : {State::kSelfTest, State::kStandby}) {
@@ -105,8 +108,8 @@ TEST(SafeStateTableTest, CorruptedStateOrEventGivesLockedOut) {
 TEST(SafeStateTableTest, NamesAreThoseOfTheReports) {
     verifies("SWR-FSM-001", Technique::kInterface);
     constexpr std::array<const char*, kSafeStateCount> kNames{
-        "SelfTest",          "Standby",        "Operational", "Degraded", "ProtectiveStopSs2",
-        "ProtectiveStopSs1", "StandstillHold", "Safe",        "LockedOut"};
+        "SelfTest",          "Standby",        "Operational", "Degraded",  "ProtectiveStopSs2",
+        "ProtectiveStopSs1", "StandstillHold", "Safe",        "LockedOut", "LockedHold"};
 
     for (std::size_t i = 0U; i < kSafeStateCount; ++i) {
         EXPECT_STREQ(get_name(kStates[i]), kNames[i]);
@@ -152,7 +155,7 @@ TEST(SafeStateTableTest, DiagramOfTheDesignNoteShowsExactlyTheCompiledMoves) {
     EXPECT_EQ(read_diagram(), compiled);
 }
 
-/// 0 no stop, 1 SS2, 2 SS1, 3 torque off, 4 locked out.
+/// 0 no stop, 1 SS2, 2 SS1, 3 locked hold, 4 torque off, 5 locked out.
 int get_stop_severity(State state) {
     switch (state) {
         case State::kSelfTest:
@@ -165,10 +168,12 @@ int get_stop_severity(State state) {
             return 1;
         case State::kProtectiveStopSs1:
             return 2;
-        case State::kSafe:
+        case State::kLockedHold:
             return 3;
-        case State::kLockedOut:
+        case State::kSafe:
             return 4;
+        case State::kLockedOut:
+            return 5;
     }
     return -1;
 }
@@ -218,11 +223,20 @@ TEST(SafeStateTableTest, NoSequenceWithoutAResetLeavesTheSafeState) {
     }
 }
 
+TEST(SafeStateTableTest, NoEventRestartsALockedHold) {
+    verifies("SWR-FSM-037", Technique::kStateTransition, Polarity::kViolation);
+
+    for (const Event event : kEvents) {
+        const State next = calc_next_state(State::kLockedHold, event);
+        EXPECT_TRUE(next == State::kLockedHold || next == State::kLockedOut) << get_name(event);
+    }
+}
+
 TEST(SafeStateTableTest, SeverestDemandReachesTorqueOffFromEveryStateInOneStep) {
     verifies("SWR-FSM-002", Technique::kStateTransition);
 
     for (const State state : kStates) {
-        EXPECT_GE(get_stop_severity(calc_next_state(state, Event::kDemandSto)), 3) << get_name(state);
+        EXPECT_GE(get_stop_severity(calc_next_state(state, Event::kDemandSto)), 4) << get_name(state);
         EXPECT_EQ(calc_next_state(state, Event::kLockOut), State::kLockedOut) << get_name(state);
     }
 }

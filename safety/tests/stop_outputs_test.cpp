@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: torque is on, and brakes are open, in the five moving or holding states and in no other.
-// Method: every value that fits into the state's byte.
+// Goal: torque is on, and brakes are open, in the five moving or holding states and in no other; a locked
+// hold has torque against brakes that failed. Method: every value that fits into the state's byte.
 #include "mamori/safety/reaction/stop_outputs.hpp"
 
 #include "mamori/trace/verifies.hpp"
@@ -14,6 +14,7 @@ constexpr StopOutputs kTorqueOff{false, false, false, false};
 constexpr StopOutputs kMoving{true, true, false, false};
 constexpr StopOutputs kStopping{true, true, true, false};
 constexpr StopOutputs kHolding{true, true, true, true};
+constexpr StopOutputs kLockedHolding{true, false, true, true};
 
 TEST(StopOutputsTest, MovingStatesHaveTorqueAndTellTheControllerWhatIsWanted) {
     verifies("SWR-FSM-009");
@@ -23,6 +24,7 @@ TEST(StopOutputsTest, MovingStatesHaveTorqueAndTellTheControllerWhatIsWanted) {
     EXPECT_TRUE(calc_stop_outputs(SafeState::kProtectiveStopSs2) == kStopping);
     EXPECT_TRUE(calc_stop_outputs(SafeState::kProtectiveStopSs1) == kStopping);
     EXPECT_TRUE(calc_stop_outputs(SafeState::kStandstillHold) == kHolding);
+    EXPECT_TRUE(calc_stop_outputs(SafeState::kLockedHold) == kLockedHolding);
 }
 
 TEST(StopOutputsTest, EveryOtherValueOfTheByteCutsTorqueAndClosesBrakes) {
@@ -30,13 +32,13 @@ TEST(StopOutputsTest, EveryOtherValueOfTheByteCutsTorqueAndClosesBrakes) {
 
     int safe_values = 0;
     for (unsigned value = 0U; value <= 255U; ++value) {
-        const bool is_moving = value >= 3U && value <= 7U;  // kOperational .. kStandstillHold
-        if (!is_moving) {
+        const bool has_torque = (value >= 3U && value <= 7U) || value == 10U;
+        if (!has_torque) {
             EXPECT_TRUE(calc_stop_outputs(static_cast<SafeState>(value)) == kTorqueOff) << value;
             ++safe_values;
         }
     }
-    EXPECT_EQ(safe_values, 251);
+    EXPECT_EQ(safe_values, 250);
 }
 
 TEST(StopOutputsTest, OneCommandThatDiffersIsAnotherRow) {
@@ -56,9 +58,10 @@ TEST(StopOutputsTest, RowWithTorqueAgainstAClosedBrakeOrWithoutTorqueUnderAnOpen
     for (const StopOutputs& wrong :
          {StopOutputs{true, false, false, false}, StopOutputs{false, true, false, false}}) {
         for (std::size_t row = 0U; row < kSafeStateCount; ++row) {
+            const bool is_held = static_cast<SafeState>(row + 1U) == SafeState::kLockedHold;
             auto outputs = kStopOutputs;
             outputs[row] = wrong;
-            EXPECT_FALSE(detail::do_torque_and_brakes_agree(outputs)) << row;
+            EXPECT_EQ(detail::do_torque_and_brakes_agree(outputs), is_held && wrong.torque_enable) << row;
         }
     }
 }

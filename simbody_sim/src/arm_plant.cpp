@@ -88,6 +88,7 @@ struct ArmPlant::Impl {
     JointVector motor_torque{};
     PlantFaults faults{};
     bool watchdog_expired{false};
+    bool relay_closed{false};
 
     detail::DelayedSwitch torque_possible;
     std::array<detail::DelayedSwitch, kArmJointCount> brake_open;
@@ -102,11 +103,17 @@ void ArmPlant::Impl::update_switches(const safety::ArmOutputs& outputs) noexcept
     if (!powered) {
         torque_possible.reset(false);  // nothing is left to feed the motors during the switch-off delay
     }
-    const bool torque_wanted = outputs.torque_enable && !watchdog_expired && powered;
+    // Watchdog and software open the same relay, which feeds drives and brakes.
+    const bool relay_wanted = outputs.relay_close && !watchdog_expired;
+    relay_closed = relay_wanted || (faults.relay_stuck && relay_closed);
+    const bool has_supply = relay_closed && powered;
+    const bool is_enabled = outputs.torque_enable || (faults.sto_ignored && torque_possible.is_on());
+    const bool torque_wanted = is_enabled && has_supply;
     static_cast<void>(torque_possible.update(torque_wanted, Duration{}, model.sto_delay, kPlantSubstep));
-    const bool release_wanted = outputs.brake_release && !watchdog_expired && powered;
     for (std::size_t i = 0U; i < kArmJointCount; ++i) {
         const BrakeModel& brake = model.joints[i].brake;
+        const bool is_held_open = faults.brake_stuck_open[i] && brake_open[i].is_on();
+        const bool release_wanted = (outputs.brake_release && has_supply) || is_held_open;
         if (brake_open[i].update(release_wanted, brake.opening_delay, brake.closing_delay, kPlantSubstep)) {
             brakes[i].open();
         }
@@ -170,6 +177,7 @@ void ArmPlant::reset(const JointVector& q0) {
     plant.motor_torque = {};
     plant.faults = {};
     plant.watchdog_expired = false;
+    plant.relay_closed = false;
     plant.inputs = {};
     plant.torque_possible.reset(false);
     for (std::size_t i = 0U; i < kArmJointCount; ++i) {
@@ -206,6 +214,7 @@ const safety::ArmInputs& ArmPlant::sample() {
         plant.inputs.brake_closed[i] = !plant.brake_open[i].is_on();
     }
     plant.inputs.torque_enabled = plant.torque_possible.is_on();
+    plant.inputs.relay_closed = plant.relay_closed;
     plant.inputs.power_good = !plant.faults.power_lost;
     return plant.inputs;
 }

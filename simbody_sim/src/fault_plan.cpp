@@ -7,7 +7,8 @@ namespace mamori::sim {
 
 bool operator==(const FaultPlan& a, const FaultPlan& b) noexcept {
     return a.kind == b.kind && a.joint == b.joint && a.channel == b.channel && a.at == b.at &&
-           a.span == b.span && a.duration == b.duration && a.magnitude == b.magnitude && a.seed == b.seed;
+           a.span == b.span && a.duration == b.duration && a.magnitude == b.magnitude && a.seed == b.seed &&
+           a.latent == b.latent && a.latent_joint == b.latent_joint && a.latent_at == b.latent_at;
 }
 
 const char* get_name(FaultKind kind) noexcept {
@@ -34,6 +35,16 @@ const char* get_name(FaultKind kind) noexcept {
             return "message_late";
         case FaultKind::kSupervisorHang:
             return "supervisor_hang";
+        case FaultKind::kBrakeStuckOpen:
+            return "brake_stuck_open";
+        case FaultKind::kBrakesStuckOpen:
+            return "brakes_stuck_open";
+        case FaultKind::kStoIgnored:
+            return "sto_ignored";
+        case FaultKind::kRelayStuck:
+            return "relay_stuck";
+        case FaultKind::kProcessorStops:
+            return "processor_stops";
     }
     return "invalid";
 }
@@ -50,13 +61,26 @@ const char* get_name(FaultChannel channel) noexcept {
     return "invalid";
 }
 
+bool may_be_latent(FaultKind kind) noexcept {
+    return kind == FaultKind::kBrakeStuckOpen || kind == FaultKind::kBrakesStuckOpen ||
+           kind == FaultKind::kStoIgnored || kind == FaultKind::kRelayStuck || kind == FaultKind::kBrakeFade;
+}
+
+FaultPlan delay(const FaultPlan& plan, Duration by) noexcept {
+    FaultPlan later = plan;
+    later.at = plan.at + by;
+    later.latent_at = plan.kind == FaultKind::kNone ? Duration{} : by;
+    return later;
+}
+
 bool uses_channel(FaultKind kind) noexcept {
     return kind == FaultKind::kEncoderFreeze || kind == FaultKind::kEncoderBitFlip ||
            kind == FaultKind::kEncoderBias;
 }
 
 bool uses_joint(FaultKind kind) noexcept {
-    return uses_channel(kind) || kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade;
+    return uses_channel(kind) || kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade ||
+           kind == FaultKind::kBrakeStuckOpen;
 }
 
 bool uses_magnitude(FaultKind kind) noexcept {
@@ -95,10 +119,22 @@ void apply_to_encoder(const FaultPlan& plan, bool active, EncoderFault& encoder)
     }
 }
 
+void apply_to_switches(FaultKind kind, std::size_t joint, bool active, PlantFaults& faults) noexcept {
+    if (kind == FaultKind::kBrakeStuckOpen) {
+        faults.brake_stuck_open[joint] = active;
+    } else if (kind == FaultKind::kBrakesStuckOpen) {
+        faults.brake_stuck_open.fill(active);
+    } else if (kind == FaultKind::kStoIgnored) {
+        faults.sto_ignored = active;
+    } else if (kind == FaultKind::kRelayStuck) {
+        faults.relay_stuck = active;
+    }
+}
+
 }  // namespace
 
 void apply_plant_faults(const FaultPlan& plan, Instant now, PlantFaults& faults) noexcept {
-    MAMORI_REQUIRE(1, plan.joint < safety::kArmJointCount);
+    MAMORI_REQUIRE(1, plan.joint < safety::kArmJointCount && plan.latent_joint < safety::kArmJointCount);
     const bool active = is_active(plan, now);
     if (uses_channel(plan.kind)) {
         if (plan.channel != FaultChannel::kB) {
@@ -113,7 +149,13 @@ void apply_plant_faults(const FaultPlan& plan, Instant now, PlantFaults& faults)
         faults.brake_fade[plan.joint] = active ? plan.magnitude : 0.0;
     } else if (plan.kind == FaultKind::kPowerLoss) {
         faults.power_lost = active;
+    } else {
+        apply_to_switches(plan.kind, plan.joint, active, faults);
     }
+    if (plan.latent == FaultKind::kBrakeFade) {
+        faults.brake_fade[plan.latent_joint] = kLatentFade;
+    }
+    apply_to_switches(plan.latent, plan.latent_joint, now >= Instant{} + plan.latent_at, faults);
 }
 
 }  // namespace mamori::sim

@@ -23,11 +23,22 @@ class PlanError final : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-constexpr std::array<FaultKind, 11U> kKinds{
-    FaultKind::kNone,        FaultKind::kEncoderFreeze,  FaultKind::kEncoderBitFlip,
-    FaultKind::kEncoderBias, FaultKind::kTorqueRunaway,  FaultKind::kPowerLoss,
-    FaultKind::kBrakeFade,   FaultKind::kControllerHang, FaultKind::kMessageLost,
-    FaultKind::kMessageLate, FaultKind::kSupervisorHang};
+constexpr std::array<FaultKind, 16U> kKinds{FaultKind::kNone,
+                                            FaultKind::kEncoderFreeze,
+                                            FaultKind::kEncoderBitFlip,
+                                            FaultKind::kEncoderBias,
+                                            FaultKind::kTorqueRunaway,
+                                            FaultKind::kPowerLoss,
+                                            FaultKind::kBrakeFade,
+                                            FaultKind::kControllerHang,
+                                            FaultKind::kMessageLost,
+                                            FaultKind::kMessageLate,
+                                            FaultKind::kSupervisorHang,
+                                            FaultKind::kBrakeStuckOpen,
+                                            FaultKind::kBrakesStuckOpen,
+                                            FaultKind::kStoIgnored,
+                                            FaultKind::kRelayStuck,
+                                            FaultKind::kProcessorStops};
 constexpr std::array<FaultChannel, 3U> kChannels{FaultChannel::kA, FaultChannel::kB, FaultChannel::kBoth};
 
 /// Times in a plan end here, so that they stay far from the range of Instant.
@@ -43,7 +54,7 @@ std::string join(const std::vector<std::string_view>& names) {
 
 Pairs split(std::string_view text) {
     const std::vector<std::string_view> keys{"kind",     "joint",     "channel", "at",
-                                             "duration", "magnitude", "seed"};
+                                             "duration", "magnitude", "seed",    "latent"};
     Pairs pairs;
     while (true) {
         const std::size_t comma = text.find(',');
@@ -161,6 +172,11 @@ double to_magnitude(FaultKind kind, const std::string& text) {
         case FaultKind::kControllerHang:
         case FaultKind::kMessageLost:
         case FaultKind::kSupervisorHang:
+        case FaultKind::kBrakeStuckOpen:
+        case FaultKind::kBrakesStuckOpen:
+        case FaultKind::kStoIgnored:
+        case FaultKind::kRelayStuck:
+        case FaultKind::kProcessorStops:
             break;
     }
     return value;
@@ -180,6 +196,23 @@ void read_span(const Pairs& pairs, FaultPlan& plan) {
         plan.span = FaultSpan::kForTime;
         plan.duration = to_time("duration", found->second, false);
     }
+}
+
+/// `kind` or `kind:joint`.
+void read_latent(const std::string& text, FaultPlan& plan) {
+    const std::size_t colon = text.find(':');
+    plan.latent = find_by_name("latent fault", text.substr(0U, colon), kKinds);
+    if (!may_be_latent(plan.latent)) {
+        throw PlanError(std::string(get_name(plan.latent)) +
+                        " is no latent fault; valid: brake_stuck_open, brakes_stuck_open, brake_fade, "
+                        "sto_ignored, relay_stuck");
+    }
+    if (uses_joint(plan.latent) != (colon != std::string::npos)) {
+        throw PlanError(std::string("latent=") + get_name(plan.latent) +
+                        (uses_joint(plan.latent) ? " needs a joint, for example latent=brake_stuck_open:2"
+                                                 : " takes no joint"));
+    }
+    plan.latent_joint = colon == std::string::npos ? 0U : to_joint(text.substr(colon + 1U));
 }
 
 FaultPlan read_plan(std::string_view text) {
@@ -203,6 +236,10 @@ FaultPlan read_plan(std::string_view text) {
         throw PlanError("kind none takes no duration");
     }
     read_span(pairs, plan);
+    const auto latent = pairs.find("latent");
+    if (latent != pairs.end()) {
+        read_latent(latent->second, plan);
+    }
     const auto seed = pairs.find("seed");
     plan.seed = seed == pairs.end() ? 0U : to_whole_number("seed", seed->second);
     return plan;
@@ -252,6 +289,10 @@ std::string to_text(const FaultPlan& plan) {
     }
     if (uses_magnitude(plan.kind)) {
         text += ",magnitude=" + detail::to_text(plan.magnitude);
+    }
+    if (plan.latent != FaultKind::kNone) {
+        text += std::string(",latent=") + get_name(plan.latent);
+        text += uses_joint(plan.latent) ? ":" + std::to_string(plan.latent_joint + 1U) : std::string{};
     }
     return plan.seed == 0U ? text : text + ",seed=" + std::to_string(plan.seed);
 }

@@ -144,5 +144,25 @@ TEST(ArmPlantBrakeTest, PowerLossInMotionTravelsLittleAndEndsHeld) {
     EXPECT_LT(calc_distance(sut.velocities(), {}), 1.0e-3);
 }
 
+TEST(ArmPlantBrakeTest, ABrakeThatIsStuckOpenStaysOpenOnceItIsOpenAndSaysSo) {
+    verifies("SWR-SIM-012", Technique::kFaultInjection);
+    const ArmModel model = load_shipped_model();
+    ComputedTorqueController controller(model);
+    const safety::ArmOutputs hold = command(controller.calc_gravity_torque(kBentPose));
+    ArmPlant sut(model);
+    sut.reset(kBentPose);
+    sut.faults().brake_stuck_open[1] = true;
+    ASSERT_EQ(sut.step({}, 100_ms), Status::kOk);
+    EXPECT_TRUE(sut.sample().brake_closed[1]) << "a closed brake stays closed";
+    ASSERT_EQ(sut.step(hold, 100_ms), Status::kOk);
+
+    safety::ArmOutputs close = hold;
+    close.brake_release = false;
+    ASSERT_EQ(sut.step(close, 200_ms), Status::kOk);
+    EXPECT_FALSE(sut.sample().brake_closed[1]);
+    EXPECT_TRUE(sut.sample().brake_closed[0]);
+    EXPECT_LT(calc_distance(sut.positions(), kBentPose), 1e-3) << "torque holds the joint";
+}
+
 }  // namespace
 }  // namespace mamori::sim

@@ -90,6 +90,7 @@ TEST(ArmPlantDeterminismTest, LengthOfTheCallsDoesNotMatter) {
     pieces.reset(kBentPose);
     safety::ArmOutputs fall;
     fall.brake_release = true;
+    fall.relay_close = true;
 
     ASSERT_EQ(whole.step(fall, 200_ms), Status::kOk);
     for (int piece = 0; piece < 800; ++piece) {

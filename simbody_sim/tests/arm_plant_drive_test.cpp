@@ -168,5 +168,49 @@ TEST_F(ArmPlantDriveTest, ButtonsAreShownAsPressed) {
     EXPECT_FALSE(sut_.sample().reset_button);
 }
 
+TEST_F(ArmPlantDriveTest, AnOpenRelayTakesTorqueAndBrakeCurrentAndItsContactSaysSo) {
+    verifies("SWR-SIM-006");
+    hold_for(100_ms);
+    ASSERT_TRUE(sut_.sample().relay_closed);
+    safety::ArmOutputs open = hold();
+    open.relay_close = false;
+
+    ASSERT_EQ(sut_.step(open, 40_ms), Status::kOk);
+    EXPECT_FALSE(sut_.sample().relay_closed);
+    EXPECT_FALSE(sut_.sample().torque_enabled);
+    EXPECT_TRUE(sut_.sample().brake_closed[1]);
+}
+
+TEST_F(ArmPlantDriveTest, ARelayThatIsStuckStaysClosedOnceItIsClosed) {
+    verifies("SWR-SIM-012", Technique::kFaultInjection);
+    sut_.faults().relay_stuck = true;
+    ASSERT_EQ(sut_.step({}, 1_ms), Status::kOk);
+    EXPECT_FALSE(sut_.sample().relay_closed);
+    hold_for(100_ms);
+
+    safety::ArmOutputs open = hold();
+    open.relay_close = false;
+    sut_.set_watchdog_expired(true);
+    ASSERT_EQ(sut_.step(open, 40_ms), Status::kOk);
+    EXPECT_TRUE(sut_.sample().relay_closed);
+    EXPECT_TRUE(sut_.sample().torque_enabled);
+}
+
+TEST_F(ArmPlantDriveTest, DrivesThatIgnoreSafeTorqueOffLoseTheirTorqueByTheRelay) {
+    verifies("SWR-SIM-012", Technique::kFaultInjection);
+    sut_.faults().sto_ignored = true;
+    ASSERT_EQ(sut_.step({}, 1_ms), Status::kOk);
+    EXPECT_FALSE(sut_.sample().torque_enabled) << "torque that was never on stays off";
+    hold_for(100_ms);
+    safety::ArmOutputs off = hold();
+    off.torque_enable = false;
+    ASSERT_EQ(sut_.step(off, 40_ms), Status::kOk);
+    EXPECT_TRUE(sut_.sample().torque_enabled);
+
+    off.relay_close = false;
+    ASSERT_EQ(sut_.step(off, 10_ms), Status::kOk);
+    EXPECT_FALSE(sut_.sample().torque_enabled);
+}
+
 }  // namespace
 }  // namespace mamori::sim

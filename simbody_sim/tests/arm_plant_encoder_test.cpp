@@ -73,6 +73,7 @@ TEST_F(ArmPlantEncoderTest, AFrozenChannelKeepsItsCountWhileTheOtherFollowsAndRe
     sut_.faults().encoder_a[1].frozen = true;
     safety::ArmOutputs fall;
     fall.brake_release = true;
+    fall.relay_close = true;
     ASSERT_EQ(sut_.step(fall, 300_ms), Status::kOk);
     EXPECT_EQ(sut_.sample().encoder_a_counts[1], before);
     const double b_rad = sut_.sample().encoder_b_counts[1] / model_.joints[1].encoder_b_counts_per_rad;

@@ -28,6 +28,7 @@ ArmModel make_free_model() {
 safety::ArmOutputs release_only() {
     safety::ArmOutputs outputs;
     outputs.brake_release = true;
+    outputs.relay_close = true;
     return outputs;
 }
 

@@ -56,6 +56,7 @@ inline safety::ArmOutputs command(const JointVector& torque_nm) {
     outputs.torque_nm = torque_nm;
     outputs.torque_enable = true;
     outputs.brake_release = true;
+    outputs.relay_close = true;
     return outputs;
 }
 

@@ -51,7 +51,7 @@ TEST(FaultPlanTest, AFaultStaysUnlessItIsSaidOtherwise) {
 
 TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
     verifies("SWR-SIM-011", Technique::kEquivalenceClasses);
-    const std::array<std::string, 12U> texts{
+    const std::array<std::string, 16U> texts{
         "kind=none",
         "kind=none,seed=18446744073709551615",
         "kind=encoder_freeze,joint=1,channel=a,at=2",
@@ -63,7 +63,11 @@ TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
         "kind=controller_hang,at=1,duration=0.05",
         "kind=message_lost,at=1,duration=once,seed=7",
         "kind=message_late,at=1,duration=2,magnitude=0.02",
-        "kind=supervisor_hang,at=1.5"};
+        "kind=supervisor_hang,at=1.5",
+        "kind=power_loss,at=1,latent=brake_stuck_open:7",
+        "kind=none,latent=sto_ignored,seed=3",
+        "kind=brake_stuck_open,joint=2,at=1",
+        "kind=processor_stops,at=1"};
 
     for (const std::string& text : texts) {
         EXPECT_EQ(to_text(parse(text)), text);
@@ -91,7 +95,8 @@ TEST(FaultPlanTest, EveryKindIsListedOnceAndNoOther) {
 
     EXPECT_EQ(list_fault_kinds(),
               "none, encoder_freeze, encoder_bit_flip, encoder_bias, torque_runaway, power_loss, brake_fade, "
-              "controller_hang, message_lost, message_late, supervisor_hang");
+              "controller_hang, message_lost, message_late, supervisor_hang, brake_stuck_open, "
+              "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops");
 }
 
 TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {
@@ -225,6 +230,40 @@ TEST(FaultPlanTest, PlansOfTheRunnerLeaveThePlantAlone) {
         EXPECT_FALSE(faults.encoder_a[0].frozen);
         EXPECT_FALSE(faults.torque_runaway[0]);
     }
+}
+
+TEST(FaultPlanTest, ALatentFaultIsPresentSinceTheStartOfTheMotionOrWithoutAnotherOneSincePowerUp) {
+    verifies("SWR-SIM-012", Technique::kBoundaryValues);
+    PlantFaults faults;
+    const FaultPlan with_other =
+        delay(parse("kind=power_loss,at=1,latent=brake_stuck_open:2"), Duration{500});
+    apply_plant_faults(with_other, Instant{499}, faults);
+    EXPECT_FALSE(faults.brake_stuck_open[1]);
+    apply_plant_faults(with_other, Instant{500}, faults);
+    EXPECT_TRUE(faults.brake_stuck_open[1]);
+    EXPECT_FALSE(faults.brake_stuck_open[0]);
+    EXPECT_EQ(with_other.at, Duration{1000000500});
+
+    apply_plant_faults(delay(parse("kind=none,latent=relay_stuck"), Duration{500}), Instant{0}, faults);
+    EXPECT_TRUE(faults.relay_stuck);
+    apply_plant_faults(parse("kind=none,latent=sto_ignored"), Instant{0}, faults);
+    EXPECT_TRUE(faults.sto_ignored);
+    apply_plant_faults(parse("kind=none,latent=brake_fade:3"), Instant{0}, faults);
+    EXPECT_EQ(faults.brake_fade[2], kLatentFade);
+    apply_plant_faults(parse("kind=none,latent=brakes_stuck_open"), Instant{0}, faults);
+    EXPECT_TRUE(faults.brake_stuck_open[0] && faults.brake_stuck_open[6]);
+}
+
+TEST(FaultPlanTest, ALatentFaultThatIsNoneIsRefused) {
+    verifies("SWR-SIM-011", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_NE(get_error("kind=none,latent=power_loss").find("power_loss is no latent fault; valid: "),
+              std::string::npos);
+    EXPECT_NE(get_error("kind=none,latent=stoignored").find("did you mean 'sto_ignored'?"),
+              std::string::npos);
+    EXPECT_NE(get_error("kind=none,latent=brake_stuck_open").find("needs a joint"), std::string::npos);
+    EXPECT_NE(get_error("kind=none,latent=brake_stuck_open:8").find("joint must be 1 to 7"),
+              std::string::npos);
+    EXPECT_NE(get_error("kind=none,latent=relay_stuck:1").find("takes no joint"), std::string::npos);
 }
 
 }  // namespace

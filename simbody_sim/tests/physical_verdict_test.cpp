@@ -151,6 +151,7 @@ TEST_F(PhysicalVerdictTest, ItSeesEachStepOfThePlant) {
     plant.set_observer(&sut_);
     safety::ArmOutputs fall;
     fall.brake_release = true;
+    fall.relay_close = true;
 
     ASSERT_EQ(plant.step(fall, 300_ms), Status::kOk);
     EXPECT_EQ(sut_.get_max_speed_rad_s()[1], std::abs(plant.velocities()[1]));

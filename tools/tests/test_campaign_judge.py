@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import copy
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -17,13 +18,13 @@ from mamori_tools.campaign.case import Check, conclude
 BOUNDS = Bounds(hold_drift_rad=0.002, hold_observed_s=0.5, tracking_error_rad=0.02)
 
 STOP = ArmCase(
-    id="encoder_freeze-1", scenario="encoder_freeze", title="freeze", fault=Fault("encoder_freeze", 1.5, 2, "a"), seed=3,
+    id="encoder_freeze-1", scenario="encoder_freeze", title="freeze", fault=Fault("encoder_freeze", 1.5, 2, "a"), latent="", seed=3,
     frames=4000, watch_s=2.0, expected=Expected("Safe", ("Ss1", "Sto"), ("EncoderDiscrepancy",), 0.1), bounds=BOUNDS,
     requirements={"SYS-020": "violation"},
 )  # fmt: skip
 
 QUIET = ArmCase(
-    id="none-1", scenario="none", title="none", fault=None, seed=3, frames=None, watch_s=7.8,
+    id="none-1", scenario="none", title="none", fault=None, latent="", seed=3, frames=None, watch_s=7.8,
     expected=Expected("Operational", ("None",), ("None",), None, watchdog_bitten=False), bounds=BOUNDS,
     requirements={"SYS-027": "nominal"},
 )  # fmt: skip
@@ -32,6 +33,7 @@ STOPPED: dict[str, Any] = {
     "schema": "mamori.run/1", "commit": "abc", "seed": 3, "frames": 4000, "period_s": 0.001,
     "fault": {"kind": "encoder_freeze", "joint": 2, "channel": "a", "at_s": 2.0, "motion_at_s": 1.5, "duration_s": None,
               "magnitude": None},
+    "latent": None,
     "simulated_s": 4.0, "final_state": "Safe", "operational_at_s": 0.05, "detected_fault": "EncoderDiscrepancy",
     "detected_at_s": 2.013, "reaction": "Ss1", "reacted_at_s": 2.013, "standstill_at_s": 2.21, "watchdog_bitten": False,
     "physics": {"max_speed_rad_s": [0.5, 0.6], "speed_limit_rad_s": [1.0, 1.0], "min_position_margin_rad": 0.4,
@@ -200,3 +202,24 @@ def test_a_missing_run_and_a_run_with_a_problem_fail() -> None:
 @pytest.mark.verifies("SWR-CMP-004", polarity="violation")
 def test_no_check_is_no_pass() -> None:
     assert conclude([]) == "failed"
+
+
+@pytest.mark.verifies("SWR-CMP-004", technique="fault_injection", polarity="violation")
+@pytest.mark.parametrize("written", [None, "brake_stuck_open:3", "sto_ignored"])
+def test_run_with_another_latent_fault_fails(written: str | None) -> None:
+    case = replace(STOP, latent="brake_stuck_open:2")
+
+    assert failed(judge(case, STOPPED | {"latent": "brake_stuck_open:2"})) == []
+    assert failed(judge(case, STOPPED | {"latent": written})) == ["fault injected"]
+
+
+@pytest.mark.verifies("SWR-CMP-004", technique="equivalence_classes", polarity="violation")
+def test_machine_that_starts_although_its_self_test_must_fail_fails() -> None:
+    refused = replace(QUIET, latent="sto_ignored", watch_s=0.5,
+                      expected=Expected("LockedOut", ("None",), ("SelfTestFailed",), None, False, operational=False))  # fmt: skip
+    run = FOLLOWED | {"latent": "sto_ignored", "final_state": "LockedOut", "operational_at_s": None, "detected_fault": "SelfTestFailed",
+                      "detected_at_s": 0.1}  # fmt: skip
+
+    assert failed(judge(refused, run)) == []
+    assert failed(judge(refused, run | {"operational_at_s": 0.25})) == ["start refused"]
+    assert failed(judge(refused, run | {"reaction": "Sto", "reacted_at_s": 0.2})) == ["no false trip", "reaction"]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mamori_tools.campaign import load_plan, load_subject, select
-from mamori_tools.campaign.arm.fault import KINDS, Fault
+from mamori_tools.campaign.arm.fault import KINDS, LATENT_KINDS, Fault
 from mamori_tools.campaign.arm.plan import ArmPlan
 from mamori_tools.campaign.arm.selection import ArmCase, resolve
 from mamori_tools.campaign.arm.vocabulary import DETECTED_FAULTS, NOTHING
@@ -262,8 +262,10 @@ def test_the_shipped_plan_injects_every_declared_kind_at_three_instants() -> Non
     assert all(len(instants) == 3 for instants in by_scenario.values())
     assert {case.fault.kind for case in cases if case.fault} >= {
         "encoder_freeze", "encoder_bit_flip", "controller_hang", "torque_runaway", "message_lost", "message_late",
-        "power_loss", "supervisor_hang"}
-    assert sum(case.fault is None for case in cases) == 1
+        "power_loss", "supervisor_hang", "processor_stops"}
+    assert [case.scenario for case in cases if case.fault is None] == [
+        "none", "start_with_weak_brake", "start_with_sto_ignored", "start_with_relay_stuck"]
+    assert {case.latent.partition(":")[0] for case in cases} == {"", *LATENT_KINDS}
 
 
 @pytest.mark.verifies("SWR-CMP-001", technique="interface")

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from mamori_tools.campaign import Plan, load_plan
-from mamori_tools.campaign.arm.fault import KINDS
+from mamori_tools.campaign.arm.fault import KINDS, LATENT_KINDS
 from mamori_tools.campaign.arm.plan import ArmScenario
 from mamori_tools.campaign.arm.selection import resolve
 from mamori_tools.command import run_case
@@ -37,6 +37,7 @@ if state == "crashes":
 pairs = dict(pair.split("=") for pair in arguments["--fault"].split(","))
 at = 0.5 + float(pairs["at"])
 run = {{"schema": "mamori.run/1", "commit": "none", "seed": int(arguments["--seed"]), "simulated_s": at + 2.0,
+       "latent": None,
        "fault": {{"kind": pairs["kind"], "joint": None, "channel": None, "at_s": at, "motion_at_s": float(pairs["at"]), "magnitude": None}},
        "final_state": state, "operational_at_s": 0.1, "detected_fault": "PowerLost", "detected_at_s": at, "reaction": "Sto",
        "reacted_at_s": at + 0.001, "standstill_at_s": at + 0.1, "watchdog_bitten": False,
@@ -91,9 +92,10 @@ def test_a_fault_is_injected_at_the_instant_that_was_given_also_where_the_joint_
     ("powerloss", "unknown kind 'powerloss'; known: none, encoder_freeze, "),
     ("", "unknown kind ''; known: none, "),
     ("brake_fade", "unknown kind 'brake_fade'; known: "),
-    ("power_loss,joint=2", "'joint=2' is not key=value with a known key; power_loss takes at, duration"),
+    ("power_loss,joint=2", "'joint=2' is not key=value with a known key; power_loss takes at, duration, latent"),
     ("power_loss,at", "'at' is not key=value"),
-    ("none,at=1", "none takes no key"),
+    ("none,at=1", "none takes latent"),
+    ("none,latent=power_loss", "latent is 'power_loss'; valid: brake_stuck_open, "),
     ("power_loss,at=1,at=2", "at is given twice"),
     ("power_loss,at=-0.001", "at is '-0.001'; valid: seconds of the motion, from 0 to below its end at 7.800"),
     ("power_loss,at=7.8", "at is '7.8'; valid: "),
@@ -228,5 +230,7 @@ def test_a_file_in_the_place_of_the_folder_is_one_line(command: Callable[..., in
 def test_the_help_lists_each_kind_that_has_a_scenario(plan: Plan) -> None:
     texts = make_texts()
 
-    assert {each.fault.kind for each in plan.scenarios if isinstance(each, ArmScenario)} == {kind for kind in KINDS if kind in texts["run"]}
+    assert {each.fault.kind for each in plan.scenarios if isinstance(each, ArmScenario)} == {
+        kind for kind in KINDS if kind in texts["run"] and kind not in LATENT_KINDS}
+    assert all(kind in texts["run"] for kind in LATENT_KINDS)
     assert all(each.name in texts["demo"] for each in plan.scenarios)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -45,12 +45,17 @@ def find_sources(root: Path, toolchain: Toolchain) -> list[str]:
     board = BOARD.get(toolchain.name, {"board_host"})
     boards = {"board_host"}.union(*BOARD.values())
     own = [path for path in sorted((root / TARGET).glob("*.cpp")) if path.stem in board or path.stem not in boards]
-    texts = [path.read_text(encoding="utf-8") for path in sorted((root / TARGET).glob("*.?pp"))]
-    wanted = {name for text in texts for name in INCLUDE.findall(text)}
+    wanted = _list_included(sorted((root / TARGET).glob("*.?pp")))
+    wanted |= _list_included(root / EXAMPLE / f"{name}.hpp" for name in wanted)
     example = [path for path in sorted((root / EXAMPLE).glob("*.cpp")) if path.stem in wanted]
     layers = [path for layer in find_target_layers(root) for path in layer.sources()]
     paths = [*layers, *sorted((root / PORT / "src").glob("*.cpp")), *example, *own]
     return list(dict.fromkeys(str(path.relative_to(root)) for path in paths))
+
+
+def _list_included(paths: Iterable[Path]) -> set[str]:
+    """Stems of the headers beside them that the files include."""
+    return {name for path in paths if path.exists() for name in INCLUDE.findall(path.read_text(encoding="utf-8"))}
 
 
 def find_includes(root: Path) -> list[str]:

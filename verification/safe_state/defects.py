@@ -54,7 +54,7 @@ def bend(source: str, target: str, *given: dict[str, Sequence[str]], past: Past 
                                         for one in machine.pasts[number]):  # fmt: skip
                 continue
             for start, reset in product(digits[6], digits[7]):
-                place = np.ix_(*digits[:6], [start], [reset], digits[8])
+                place = np.ix_(*digits[:6], [start], [reset], *digits[8:])
                 answers[number][place] = machine.find(target, Past(bool(start), bool(reset)))
         table = dict(machine.table)
         if cell is not None:
@@ -88,6 +88,10 @@ DEFECTS: tuple[Defect[Machine], ...] = (
            bend("Safe", "SelfTest", WELL, {"reset_button": ("no",)})),
     Defect("held-reset-restarts-nothing", "A reset that is held down resets again in each cycle.",
            bend("Safe", "SelfTest", WELL, RESET, past=Past(reset=True))),
+    Defect("locked-hold-for-good", "STO leads from the locked hold to the safe state, from which a reset restarts.",
+           bend("LockedHold", "Safe", {"demand": ("Sto", "Invalid")}, cell=("LockedHold", "DemandSto"))),
+    Defect("failed-brakes-are-held", "The bound of an SS1 takes the torque although its brakes failed.",
+           bend("ProtectiveStopSs1", "Safe", {"demand": ("None", "Degrade", "Ss2", "Ss1"), "brakes_failed": ("yes",), "time": ("Beyond",)})),
     Defect("locked-out-for-good", "A reset unlocks.",
            bend("LockedOut", "Safe", WELL, RESET, cell=("LockedOut", "Reset"))),
     Defect("sto-in-one-step", "STO is answered by an SS1.",

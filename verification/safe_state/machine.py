@@ -56,10 +56,10 @@ class Machine:
             for reset in (0, 1):
                 for running in (True, False):
                     tests = [RUNNING] if running else [i for i in range(SHAPE[1]) if i != RUNNING]
-                    part = answers[..., start, reset, :][:, tests]
+                    part = answers[..., start, reset, :, :][:, tests]
                     for target in np.unique(part):
                         at = [int(index) for index in np.argwhere(part == target)[0]]
-                        letter = (at[0], tests[at[1]], *at[2:6], start, reset, at[6])
+                        letter = (at[0], tests[at[1]], *at[2:6], start, reset, *at[6:])
                         yield letter, (int(target), self.advance(past, number, int(target), letter))
         if number != self.corrupted:
             yield (), (self.corrupted, past)
@@ -107,6 +107,7 @@ def describe_letter(letter: tuple[int, ...], past: Past, limit: str) -> str:
             words.append(f"{name.removesuffix('_button')} {'held' if before else 'pushed'}")
     words += [name.replace("_", " ") if values[name] == "yes" else f"no {name.replace('_', ' ')}"
               for name in ("standstill", "faults_cleared", "start_permitted")]  # fmt: skip
+    words += ["brakes failed"] if values["brakes_failed"] == "yes" else []
     words += ["lock out"] if values["lock_out"] == "yes" else []
     words += [f"time {values['time']} ({limit})"] if limit != "none" else []
     return ", ".join(words)

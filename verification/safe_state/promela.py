@@ -65,13 +65,13 @@ inline settle() {{
     standstill = (sees & 1) != 0;
     reset = (sees & 2) != 0;
     if
-    :: !next_torque -> demand_cycles = 0
-    :: next_torque && (demand_cycles > 0 || (sees & 4) != 0) -> demand_cycles = demand_cycles + (demand_cycles <= SS1_WITHIN)
+    :: !next_torque || next_state == LockedHold -> demand_cycles = 0
+    :: next_torque && next_state != LockedHold && (demand_cycles > 0 || (sees & 4) != 0) -> demand_cycles = demand_cycles + (demand_cycles <= SS1_WITHIN)
     :: else -> skip
     fi;
     if
-    :: !next_torque -> stop_cycles = 0
-    :: next_torque && stop_cycles > 0 && !standstill -> stop_cycles = stop_cycles + (stop_cycles <= SS2_WITHIN + SS1_WITHIN)
+    :: !next_torque || next_state == LockedHold -> stop_cycles = 0
+    :: next_torque && next_state != LockedHold && stop_cycles > 0 && !standstill -> stop_cycles = stop_cycles + (stop_cycles <= SS2_WITHIN + SS1_WITHIN)
     :: next_torque && stop_cycles == 0 && state != ProtectiveStopSs2 && next_state == ProtectiveStopSs2 -> stop_cycles = 1
     :: else -> stop_cycles = 0
     fi;
@@ -139,12 +139,12 @@ def _list_moves_of(machine: Machine, source: int) -> Iterator[Move]:
     for sees in range(8):
         standstill, reset, is_ss1 = sees & 1, sees >> 1 & 1, sees >> 2
         demands = [SS1] if is_ss1 else [digit for digit in range(len(VALUES["demand"])) if digit != SS1]
-        part = machine.next[source][demands][:, :, :, standstill, :, :, :, reset, :]
+        part = machine.next[source][demands][:, :, :, standstill, :, :, :, reset, :, :]
         for target in np.unique(part):
             places = np.argwhere(part == target)
             for guard, times in list_guards(limit, {int(time) for time in places[:, -1]}):
                 at = max((place for place in places.tolist() if place[-1] in times), key=lambda place: place[-1])
-                letter = (demands[at[0]], at[1], at[2], standstill, at[3], at[4], at[5], reset, at[6])
+                letter = (demands[at[0]], at[1], at[2], standstill, at[3], at[4], at[5], reset, *at[6:])
                 yield Move(source, int(target), sees, guard, letter)
 
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 RANKS: Mapping[str, int] = {
     "Operational": 0, "Degraded": 1, "Standby": 2, "SelfTest": 3, "ProtectiveStopSs2": 4, "StandstillHold": 4, "ProtectiveStopSs1": 5,
-    "Safe": 6, "LockedOut": 7,
+    "LockedHold": 6, "Safe": 7, "LockedOut": 8,
 }  # fmt: skip
 """Distance from free motion of the machine. A less safe state has a lower rank."""
 
@@ -68,6 +68,20 @@ PROPERTIES: tuple[Property, ...] = (
         always="[] (((state == Safe) && [] reset) -> [] (state == Safe || state == LockedOut))",
     ),
     Property(
+        "locked-hold-for-good", "SWR-FSM-037",
+        "The locked hold is left for the locked-out state only.",
+        step="(=> (is s LockedHold) (or (is t LockedHold) (is t LockedOut)))",
+        always="[] ((state == LockedHold) -> (([] (state == LockedHold)) || ((state == LockedHold) U (state == LockedOut))))",
+    ),
+    Property(
+        "failed-brakes-are-held", "SWR-FSM-037",
+        "An SS1 whose brakes failed keeps its torque in the locked hold, which no other state and no other event enters; STO and lost trust"
+        " alone take it away.",
+        step="(and (=> (and (is t LockedHold) (not (is s LockedHold))) (and (is s ProtectiveStopSs1) brakes_failed))"
+             " (=> (and (is s ProtectiveStopSs1) brakes_failed (< demand Demand_Sto) (< self_test Test_Failed) (not lock_out))"
+             " (is t LockedHold)))",
+    ),
+    Property(
         "locked-out-for-good", "SWR-FSM-003",
         "The locked-out state is left by no inputs.",
         step="(=> (is s LockedOut) (is t LockedOut))",
@@ -80,7 +94,7 @@ PROPERTIES: tuple[Property, ...] = (
     ),
     Property(
         "ss1-within-its-bound", "SWR-FSM-004",
-        "Torque is off at most the bound of SS1 after SS1 was demanded, at the first cycle from then on.",
+        "Torque is off at most the bound of SS1 after SS1 was demanded, at the first cycle from then on, unless failed brakes are held.",
         induction=Induction(
             invariant="(and (=> (limit_ss1 s) (and (<= 0 age) (< age ss1_within)))"
                       " (=> demanded (and (limit_ss1 s) (<= 0 since_demand age))))",
@@ -89,7 +103,8 @@ PROPERTIES: tuple[Property, ...] = (
     ),
     Property(
         "ss2-escalates-within-both-bounds", "SWR-FSM-004",
-        "An SS2 whose standstill never comes has torque off after both bounds, and the cycle in which the first was passed.",
+        "An SS2 whose standstill never comes has torque off after both bounds, and the cycle in which the first was passed, unless failed"
+        " brakes are held.",
         induction=Induction(
             invariant="(and (=> (limit_ss1 s) (and (<= 0 age) (< age ss1_within))) (=> (limit_ss2 s) (and (<= 0 age) (< age ss2_within)))"
                       " (=> unconfirmed (or (and (limit_ss2 s) (= since_stop age))"
@@ -99,9 +114,9 @@ PROPERTIES: tuple[Property, ...] = (
     ),
     Property(
         "no-livelock-of-stops", "SWR-FSM-004",
-        "A machine that stays in its stops comes to rest in the held one, and each SS1 ends with torque off.",
+        "A machine that stays in its stops comes to rest in the held one, and each SS1 ends with torque off or in the locked hold.",
         always="[] ((([] (state == ProtectiveStopSs2 || state == ProtectiveStopSs1 || state == StandstillHold))"
-               " -> <> [] (state == StandstillHold)) && ((state == ProtectiveStopSs1) -> <> !torque))",
+               " -> <> [] (state == StandstillHold)) && ((state == ProtectiveStopSs1) -> <> (!torque || state == LockedHold)))",
     ),
     Property(
         "held-at-standstill-only", "SWR-FSM-004",
@@ -126,8 +141,8 @@ PROPERTIES: tuple[Property, ...] = (
     ),
     Property(
         "torque-with-open-brakes-only", "SWR-FSM-009",
-        "In no situation is torque on against closed brakes, nor are brakes open without torque.",
-        step="(and (= (torque s) (brake s)) (= (torque t) (brake t)))",
+        "Brakes are open exactly while torque is on, except in the locked hold, whose brakes failed.",
+        step="(and (= (torque s) (or (brake s) (is s LockedHold))) (= (torque t) (or (brake t) (is t LockedHold))))",
     ),
     Property(
         "start-needs-an-edge", "SWR-FSM-006",

@@ -18,14 +18,15 @@ from mamori_trace.base.errors import InputError
 from mamori_trace.base.json_node import JsonNode
 
 SCHEMA = "mamori.safe_state/1"
-INPUTS = ("demand", "self_test", "lock_out", "standstill", "faults_cleared", "start_permitted", "start_button", "reset_button", "time")
+INPUTS = ("demand", "self_test", "lock_out", "standstill", "faults_cleared", "start_permitted", "start_button", "reset_button",
+          "brakes_failed", "time")  # fmt: skip
 """The names that the properties use, in the order of the digits of a letter."""
 LEVELS = ("no", "yes")
 VALUES = {
     "demand": ("None", "Degrade", "Ss2", "Ss1", "Sto", "Invalid"),
     "self_test": ("Running", "Passed", "Failed", "Invalid"),
     "time": ("BeforeEntry", "Within", "AtBound", "Beyond"),
-    **dict.fromkeys(INPUTS[2:8], LEVELS),
+    **dict.fromkeys(INPUTS[2:9], LEVELS),
 }
 SHAPE = tuple(len(VALUES[name]) for name in INPUTS)
 LIMITS = ("none", "ss2_within", "ss1_within")

@@ -24,7 +24,7 @@ PREFIXES = {"demand": "Demand_", "self_test": "Test_", "time": "Time_"}
 WORSENED = ("demand", "self_test", "lock_out")
 PASTS = ("last_start", "last_reset", "has_run")
 MOVING = ("Operational", "Degraded")
-STOPS = ("ProtectiveStopSs2", "ProtectiveStopSs1", "StandstillHold", "Safe")
+STOPS = ("ProtectiveStopSs2", "ProtectiveStopSs1", "StandstillHold", "LockedHold", "Safe")
 TIMEOUT_S = 120.0
 
 
@@ -200,9 +200,9 @@ def _write_induction(machine: Machine, induction: Induction) -> list[str]:
         f"(define-fun t_all () Int (ite flips {machine.corrupted} t))",
         f"(assert {clock})",
         f"(define-fun age_t () Int (ite (= (state s) (state t_all)) {elapsed} 0))",
-        "(define-fun demanded_t () Bool (and (torque t_all) (or demanded (= demand Demand_Ss1))))",
+        "(define-fun demanded_t () Bool (and (torque t_all) (not (is t_all LockedHold)) (or demanded (= demand Demand_Ss1))))",
         "(define-fun since_demand_t () Int (ite demanded (+ since_demand tick) 0))",
-        "(define-fun unconfirmed_t () Bool (and (torque t_all) (or (and unconfirmed (not standstill))"
+        "(define-fun unconfirmed_t () Bool (and (torque t_all) (not (is t_all LockedHold)) (or (and unconfirmed (not standstill))"
         " (and (not (is s ProtectiveStopSs2)) (is t_all ProtectiveStopSs2)))))",
         "(define-fun since_stop_t () Int (ite unconfirmed (+ since_stop tick) 0))",
     ]

@@ -102,12 +102,12 @@ def drop(document: dict[str, Any], *place: str | int) -> None:
 
 FAULTS = {
     "has no 'table'": lambda document: drop(document, "table"),
-    "has 8 rows for 9 states": lambda document: drop(document, "table", 3),
-    "has 11 cells for 12 events": lambda document: drop(document, "table", 3, 1),
-    "has 6143 answers for 6144 combinations": lambda document: drop(document, "situations", 5, "next", 17),
+    "has 9 rows for 10 states": lambda document: drop(document, "table", 3),
+    "has 12 cells for 13 events": lambda document: drop(document, "table", 3, 1),
+    "has 12287 answers for 12288 combinations": lambda document: drop(document, "situations", 5, "next", 17),
     "has no 'brake_release'": lambda document: drop(document, "situations", 5, "outputs", "brake_release"),
     "the properties speak about": lambda document: drop(document, "inputs", 2),
-    "beyond the 73 rows it points into": lambda document: drop(document, "situations", 73),
+    "beyond the 81 rows it points into": lambda document: drop(document, "situations", 81),
     "is 'Sofa'": lambda document: document["table"][0].__setitem__(0, "Sofa"),
     "is 'mamori.safe_state/0'": lambda document: document.__setitem__("schema", "mamori.safe_state/0"),
 }
@@ -118,7 +118,7 @@ FAULTS = {
 def test_incomplete_relation_is_refused_in_one_line(text: str, complaint: str) -> None:
     document = json.loads(text)
     if complaint.startswith("beyond"):
-        document["situations"][0]["next"][0] = 73  # of 74, before the last one is dropped
+        document["situations"][0]["next"][0] = 81  # of 82, before the last one is dropped
     FAULTS[complaint](document)
 
     with pytest.raises(InputError) as error:

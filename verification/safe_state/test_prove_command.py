@@ -28,8 +28,8 @@ def test_all_is_proved_printed_as_json_and_kept(tmp_path: Path, capsys: pytest.C
     record = json.loads(capsys.readouterr().out)
     assert status == 0
     assert record["schema"] == "mamori.safe_state_proof/1"
-    assert (record["situations"], record["merged_situations"], record["corrupted_objects"]) == (74, 15, 1168)
-    assert (record["brake_situations"], record["merged_brake_situations"]) == (126, 10)
+    assert (record["situations"], record["merged_situations"], record["corrupted_objects"]) == (82, 16, 1296)
+    assert (record["brake_situations"], record["merged_brake_situations"]) == (134, 10)
     assert [row["name"] for row in record["properties"] if row["proved"]] == NAMES
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == BRAKE_FILES + MACHINE_FILES + COMMON_FILES
     assert json.loads((tmp_path / "out" / "proof.json").read_text(encoding="utf-8")) == record

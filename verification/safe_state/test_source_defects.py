@@ -51,7 +51,7 @@ class Slip:
 
 SLIPS = {
     "cell of the table": Slip(
-        TABLE, "kHold, kHold, kHold,  kStby, kHold,  kHold,   kHold", "kHold, kHold, kHold,  kOper, kHold,  kHold,   kHold",
+        TABLE, "kHold, kHold, kHold, kStby, kHold, kHold, kHold", "kHold, kHold, kHold, kOper, kHold, kHold, kHold",
         ("stop-never-turns-into-motion",)),
     "order of two events": Slip(
         TABLE, "    kSelfTestFailed,       ///< a self test failed, at power-up or later\n"

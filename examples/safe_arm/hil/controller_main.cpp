@@ -36,8 +36,7 @@ int main(int argc, char** argv) {
     if (!refusal.empty()) {
         return fail_hil(kName, kHilExitUsage, refusal);
     }
-    mamori::sim::FaultPlan fault = options.run.fault;
-    fault.at = fault.at + kMotionStart;
+    const mamori::sim::FaultPlan fault = mamori::sim::delay(options.run.fault, kMotionStart);
     mamori::sim::ComputedTorqueController law{*loaded.model};
     static HilController controller{track, law, Instant{} + kMotionStart};
     g_sink.configure(options.error, g_sender);

@@ -42,7 +42,6 @@ Status ControllerView::on_execute(ContextHandle context) noexcept {
     result.velocity_rad_s = state.read().velocity_rad_s;
     result.is_operational = stop.read().state == SafeState::kOperational;
     result.torque_enable = stop.read().torque_enable;
-    result.stop_requested = stop.read().stop_requested;
     out.write(result);
     return Status::kOk;
 }

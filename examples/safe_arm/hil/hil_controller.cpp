@@ -14,7 +14,6 @@ TorqueCommand HilController::reply(const ControllerInput& input) noexcept {
     StopCommand stop{};
     stop.state = input.is_operational ? SafeState::kOperational : SafeState::kStandby;
     stop.torque_enable = input.torque_enable;
-    stop.stop_requested = input.stop_requested;
     state_.write(state);
     stop_.write(stop);
     controller_.state.take(state_.get_staged_sample(now));

@@ -78,6 +78,7 @@ static constexpr auto kHilSystem = mamori::safety::system(
     mamori::connect(supervisor.stop, view.stop, mamori::any_age()),
     mamori::connect(view.out, state_sender.in, mamori::any_age()),
     mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
+    mamori::connect(monitor.state, gate.arm_state, mamori::any_age()),
     mamori::connect(command_receiver.out, gate.command, mamori::any_age()),
     mamori::connect(supervisor.stop, encoder.stop, mamori::any_age()),
     mamori::connect(command_receiver.out, encoder.command, mamori::any_age()),

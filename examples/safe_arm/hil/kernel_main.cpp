@@ -181,8 +181,7 @@ int main(int argc, char** argv) {
     if (!options.replay.empty()) {
         return replay(options, *loaded.model);
     }
-    mamori::sim::FaultPlan fault = options.run.fault;
-    fault.at = fault.at + kMotionStart;
+    const mamori::sim::FaultPlan fault = mamori::sim::delay(options.run.fault, kMotionStart);
     hil::hang_point.configure(fault);
     hil::drive_sink.configure(options.error, g_drive_sender);
     hil::state_sink.configure(options.error, g_state_sender);

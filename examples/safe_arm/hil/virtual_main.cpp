@@ -32,8 +32,7 @@ int main(int argc, char** argv) {
     if (!refusal.empty()) {
         return fail_hil(kName, kHilExitUsage, refusal);
     }
-    mamori::sim::FaultPlan fault = options.run.fault;
-    fault.at = fault.at + kMotionStart;
+    const mamori::sim::FaultPlan fault = mamori::sim::delay(options.run.fault, kMotionStart);
     const auto motion_ns = static_cast<std::int64_t>(std::llround(track.get_duration_s() * 1.0e9));
     const Instant motion_start = Instant{} + kMotionStart;
     mamori::sim::ArmPlant plant{*loaded.model};

@@ -126,5 +126,87 @@ TEST_F(DriveGateTest, DeactivatedOrAbortedGateLeavesSafeOutputs) {
     }
 }
 
+TEST_F(DriveGateTest, TheStopLoopReplacesTheTorqueOfTheController) {
+    verifies("SWR-SAF-025");
+    allow(true);
+    command(3.0);
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    StopCommand stop{};
+    stop.torque_enable = true;
+    stop.torque_source = TorqueSource::kStopLoop;
+    JointState state{};
+    state.position_rad[1] = 0.7;
+    feed(sut_.arm_state, state);
+    feed(sut_.stop, stop);
+    command(-14.0);
+
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    EXPECT_EQ(outputs_.torque_nm[1], 3.0) << "the last torque before the stop";
+    EXPECT_EQ(take(sut_.drive).source, TorqueSource::kStopLoop);
+    EXPECT_EQ(take(sut_.drive).stop_setpoint_rad[1], 0.7);
+    EXPECT_FALSE(outputs_.brake_release);
+    state.position_rad[1] = 0.9;
+    feed(sut_.arm_state, state);
+    feed(sut_.stop, stop);
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    EXPECT_EQ(outputs_.torque_nm[1], -kTorqueLimitNm[1]) << "limited";
+}
+
+TEST_F(DriveGateTest, AStopThatEndsIsForgotten) {
+    verifies("SWR-SAF-025", Technique::kStateTransition, Polarity::kViolation);
+    StopCommand stop{};
+    stop.torque_enable = true;
+    stop.torque_source = TorqueSource::kStopLoop;
+    for (const bool is_silent : {false, true}) {
+        feed(sut_.arm_state, JointState{});
+        feed(sut_.stop, stop);
+        ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+        if (is_silent) {
+            sut_.stop.mark_read();
+        } else {
+            allow(false);
+        }
+        ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+        expect_safe_outputs();
+        JointState moved{};
+        moved.position_rad[0] = 1.0;
+        feed(sut_.arm_state, moved);
+        feed(sut_.stop, stop);
+        ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+        EXPECT_EQ(outputs_.torque_nm[0], 0.0) << "held at the new place";
+    }
+}
+
+TEST_F(DriveGateTest, ABrakeTestPushesWithItsShareAgainstClosedBrakes) {
+    verifies("SWR-SAF-027");
+    StopCommand stop{};
+    stop.torque_enable = true;
+    stop.torque_source = TorqueSource::kBrakeTest;
+    stop.brake_test_share = -0.5;
+    command(3.0);
+    feed(sut_.stop, stop);
+
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    EXPECT_EQ(outputs_.torque_nm[1], -116.0);
+    EXPECT_EQ(outputs_.torque_nm[6], -7.25);
+    EXPECT_FALSE(outputs_.brake_release);
+}
+
+TEST_F(DriveGateTest, TheRelayFollowsTheDecisionAndOpensWithoutOne) {
+    verifies("SWR-SAF-010", Technique::kEquivalenceClasses, Polarity::kViolation);
+    StopCommand stop{};
+    stop.relay_close = true;
+    feed(sut_.stop, stop);
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    EXPECT_TRUE(outputs_.relay_close);
+    EXPECT_TRUE(take(sut_.drive).relay_close);
+    EXPECT_FALSE(outputs_.torque_enable);
+
+    sut_.stop.mark_read();
+    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+    EXPECT_FALSE(outputs_.relay_close);
+    EXPECT_FALSE(take(sut_.drive).relay_close);
+}
+
 }  // namespace
 }  // namespace safe_arm

@@ -360,5 +360,55 @@ TEST_F(JointMonitorTest, StandstillNeedsTheWholeConfirmationTime) {
     EXPECT_TRUE(step().is_standing);
 }
 
+TEST_F(JointMonitorTest, AnArmThatLeavesItsStopIsReportedAndTheControllerIsNotJudged) {
+    verifies("SWR-SAF-029", Technique::kBoundaryValues, Polarity::kViolation);
+    drive_.source = TorqueSource::kStopLoop;
+    is_command_sent_ = false;
+    step();
+    command_.setpoint_rad[1] = 1.0;
+    for (const double sign : {1.0, -1.0}) {
+        drive_.stop_setpoint_rad[1] = sign * kStopDeviationRad * kInside;
+        EXPECT_EQ(step().faults, 0U);
+        drive_.stop_setpoint_rad[1] = sign * kStopDeviationRad * kOutside;
+        EXPECT_EQ(step().faults, to_bit(ArmFault::kStopNotFollowed));
+    }
+    drive_.torque_enable = false;
+    reading_.torque_enabled = false;
+    EXPECT_EQ(step().faults, 0U);
+}
+
+TEST_F(JointMonitorTest, AnArmOnItsStopIsNoFault) {
+    verifies("SWR-SAF-029");
+    drive_.source = TorqueSource::kStopLoop;
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_EQ(step().faults, 0U);
+    }
+}
+
+TEST_F(JointMonitorTest, ABrakeTestIsJudgedByNoSetpoint) {
+    verifies("SWR-SAF-029", Technique::kEquivalenceClasses);
+    drive_.source = TorqueSource::kBrakeTest;
+    drive_.stop_setpoint_rad[1] = 1.0;
+    command_.setpoint_rad[1] = 1.0;
+    EXPECT_EQ(step().faults, 0U);
+}
+
+TEST_F(JointMonitorTest, ARelayMayContradictOnlyForItsTime) {
+    verifies("SWR-SAF-008", Technique::kBoundaryValues, Polarity::kViolation);
+    drive_.relay_close = true;
+    step();
+    for (std::int64_t i = 1; i < kPathTime.ns / kFrame.ns; ++i) {
+        ASSERT_EQ(step().faults, 0U) << i;
+    }
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kPowerLost));
+    reading_.relay_closed = true;
+    EXPECT_EQ(step().faults, 0U);
+    drive_.relay_close = false;
+    reading_.relay_closed = false;
+    for (int i = 0; i < 50; ++i) {
+        ASSERT_EQ(step().faults, 0U) << i;
+    }
+}
+
 }  // namespace
 }  // namespace safe_arm

@@ -35,9 +35,9 @@ class MotionControllerTest : public ::testing::Test {
         sut_.configure(track_, *law_, kBegin);
         ASSERT_EQ(sut_.on_activated({1, now_}), Status::kOk);
     }
-    TorqueCommand step(SafeState state, bool torque_enable, bool stop_requested = false) {
+    TorqueCommand step(SafeState state, bool torque_enable) {
         feed(sut_.state, measured_);
-        feed(sut_.stop, StopCommand{state, torque_enable, torque_enable, stop_requested});
+        feed(sut_.stop, StopCommand{state, torque_enable, torque_enable});
         EXPECT_EQ(sut_.on_execute({1, now_}), Status::kOk);
         now_ = now_ + kFrame;
         const TorqueCommand command = take(sut_.command);
@@ -94,28 +94,6 @@ TEST_F(MotionControllerTest, PathIsNotBegunAwayFromItsFirstPoint) {
     step(SafeState::kStandby, false);
 
     EXPECT_NEAR(play(100).setpoint_rad[0], 0.3, 1e-12);
-}
-
-TEST_F(MotionControllerTest, ControlledStopEndsAtRestOnThePath) {
-    verifies("SWR-SAF-012", Technique::kStateTransition);
-    step(SafeState::kStandby, false);
-    const double before = play(500).setpoint_rad[0];
-    double last = before;
-    double step_max = 0.0;
-    double last_step = 0.0;
-    for (int i = 0; i < 200; ++i) {
-        const TorqueCommand command = step(SafeState::kProtectiveStopSs1, true, true);
-        last_step = command.setpoint_rad[0] - last;
-        step_max = std::fmax(step_max, last_step);
-        last = command.setpoint_rad[0];
-        for (const double position : command.setpoint_rad) {
-            ASSERT_NEAR(position, command.setpoint_rad[0], 1e-12) << "all joints of this path move alike";
-        }
-    }
-
-    EXPECT_EQ(last_step, 0.0);
-    EXPECT_LE(step_max, 0.5 * kFrameS + 1e-9) << "never faster than the path was";
-    EXPECT_NEAR(last - before, 0.5 * 0.5 * 0.15, 2e-3) << "uniform deceleration over 0.15 s from 0.5 rad/s";
 }
 
 }  // namespace

@@ -89,12 +89,25 @@ class SafetySupervisorFixture : public ::testing::Test {
         // The gate applies the command of this frame; the next cycle reads it.
         const StopCommand given = take(sut_.stop);
         if (is_gate_running_) {
-            feed(sut_.drive, DriveCommand{{}, given.torque_enable, given.brake_release});
+            feed(sut_.drive, DriveCommand{{},
+                                          given.torque_enable,
+                                          given.brake_release,
+                                          given.relay_close,
+                                          given.torque_source,
+                                          {}});
+        }
+        if (given.state == mamori::safety::SafeState::kSelfTest) {
+            follow_start_up(given);
         }
         sut_.reading.mark_read();
         sut_.arm_state.mark_read();
         now_ = now_ + kFrame;
         return given;
+    }
+    /// Sound devices in the self test.
+    void follow_start_up(const StopCommand& given) {
+        reading_.relay_closed = given.relay_close;
+        reading_.torque_enabled = given.torque_enable && given.relay_close;
     }
     StopCommand step_until(mamori::safety::SafeState wanted, int frames_max) {
         StopCommand command{};
@@ -104,7 +117,7 @@ class SafetySupervisorFixture : public ::testing::Test {
         return command;
     }
     StopCommand operate() {
-        step_until(mamori::safety::SafeState::kStandby, 100);
+        step_until(mamori::safety::SafeState::kStandby, 400);
         reading_.start_button = true;
         StopCommand command = step();
         reading_.start_button = false;

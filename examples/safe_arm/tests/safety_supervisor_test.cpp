@@ -30,16 +30,17 @@ TEST_F(SafetySupervisorTest, PassedSelfTestAndDeliberateStartLeadToOperation) {
 
 TEST_F(SafetySupervisorTest, SelfTestNeedsItsGoodFramesInARow) {
     verifies("SWR-SAF-014", Technique::kBoundaryValues, Polarity::kViolation);
-    for (std::uint32_t i = 0U; i < kSelfTestFrames; ++i) {
-        ASSERT_EQ(step().state, SafeState::kSelfTest) << "the first frame is not good: no service before it";
-    }
-    reading_.brakes_closed = false;
-    EXPECT_EQ(step().state, SafeState::kSelfTest);
-    reading_.brakes_closed = true;
-    for (std::uint32_t i = 1U; i < kSelfTestFrames; ++i) {
-        ASSERT_EQ(step().state, SafeState::kSelfTest) << i;
-    }
-    EXPECT_EQ(step().state, SafeState::kStandby);
+    const auto count_frames = [this](int disturbed) {
+        int frames = 0;
+        for (; sut_.get_state() == SafeState::kSelfTest && frames < 400; ++frames) {
+            reading_.brakes_closed = frames != disturbed;
+            step();
+        }
+        return frames;
+    };
+    EXPECT_EQ(count_frames(30), 30 + static_cast<int>(kSelfTestFrames) + 105)
+        << "then the tests of the devices";
+    EXPECT_EQ(sut_.get_state(), SafeState::kStandby);
 }
 
 TEST_F(SafetySupervisorTest, SelfTestThatNeverPassesLocksOut) {
@@ -63,7 +64,7 @@ TEST_F(SafetySupervisorTest, SelfTestDoesNotPassBeforeTheWatchdogIsServed) {
 
 TEST_F(SafetySupervisorTest, StartIsRefusedWhileTheWatchdogIsNotServed) {
     verifies("SWR-SAF-014", Technique::kFaultInjection, Polarity::kViolation);
-    step_until(SafeState::kStandby, 100);
+    step_until(SafeState::kStandby, 400);
     watchdog_.answer = Status::kError;
     step();
 
@@ -74,7 +75,7 @@ TEST_F(SafetySupervisorTest, StartIsRefusedWhileTheWatchdogIsNotServed) {
 TEST_F(SafetySupervisorTest, StartIsRefusedWithoutItsPreconditions) {
     verifies("SWR-SAF-014", Technique::kErrorGuessing, Polarity::kViolation);
     reading_.start_button = true;
-    step_until(SafeState::kStandby, 100);
+    step_until(SafeState::kStandby, 400);
     EXPECT_EQ(step().state, SafeState::kStandby) << "held since power-up: no edge";
     reading_.start_button = false;
     step();
@@ -170,17 +171,49 @@ TEST_F(SafetySupervisorTest, BrakesCloseUnderTorqueBeforeItIsSwitchedOff) {
     EXPECT_FALSE(step().torque_enable);
 }
 
-TEST_F(SafetySupervisorTest, BrakesThatNeverReportEndInTorqueOffAfterTheClosingTime) {
-    verifies("SWR-SAF-018", Technique::kFaultInjection, Polarity::kViolation);
+TEST_F(SafetySupervisorTest, BrakesThatNeverReportEndInALockedHold) {
+    verifies("SWR-SAF-028", Technique::kFaultInjection);
     operate();
     state_.faults = to_bit(ArmFault::kEncoderImplausible);
     for (std::int64_t i = 0; i <= kBrakes.closes_within.ns / kFrame.ns + 1; ++i) {
-        ASSERT_TRUE(step().torque_enable) << i;
+        const StopCommand stopping = step();
+        ASSERT_TRUE(stopping.torque_enable) << i;
+        ASSERT_EQ(stopping.torque_source, TorqueSource::kStopLoop);
     }
 
+    const StopCommand held = step();
+    EXPECT_EQ(held.state, SafeState::kLockedHold);
+    EXPECT_TRUE(held.torque_enable && held.relay_close && !held.brake_release);
+    EXPECT_EQ(held.torque_source, TorqueSource::kStopLoop);
+    state_.faults = 0U;
+    for (int i = 0; i < 10; ++i) {
+        reading_.reset_button = i % 2 == 0;
+        ASSERT_EQ(step().state, SafeState::kLockedHold) << "no reset ends it";
+    }
+}
+
+TEST_F(SafetySupervisorTest, AnArmThatLeavesItsLockedHoldLosesTorqueByBothPaths) {
+    verifies("SWR-SAF-028", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    state_.faults = to_bit(ArmFault::kEncoderImplausible);
+    step_until(SafeState::kLockedHold, 200);
+    ASSERT_EQ(sut_.get_state(), SafeState::kLockedHold);
+
+    state_.faults = to_bit(ArmFault::kStopNotFollowed);
     const StopCommand command = step();
-    EXPECT_EQ(command.state, SafeState::kSafe);
+    EXPECT_EQ(command.state, SafeState::kLockedOut);
     EXPECT_FALSE(command.torque_enable);
+    EXPECT_FALSE(command.relay_close);
+}
+
+TEST_F(SafetySupervisorTest, ABrakeTestThatIsTooOldStopsTheArmUntilThePassOfANewOne) {
+    verifies("SWR-SAF-027", Technique::kBoundaryValues, Polarity::kViolation);
+    step_until(SafeState::kStandby, 400);
+    const Instant tested_at = now_ - kFrame;
+    now_ = tested_at + kBrakeTestInterval;
+    EXPECT_EQ(step().state, SafeState::kStandby) << "the clock jumps here; what runs in each frame expires";
+    EXPECT_EQ(step().state, SafeState::kSafe);
+    EXPECT_TRUE(safety_.get_faults().is_latched(to_index(ArmFault::kBrakeTestOld)));
 }
 
 TEST_F(SafetySupervisorTest, ControlledStopThatIsIgnoredBecomesTorqueOff) {
@@ -212,7 +245,7 @@ TEST_F(SafetySupervisorTest, SilentControllerIsAFaultAndLeavesTheWatchdogServed)
     supervision_.on_budget_overrun(1U, kController, now_);
     const int before = watchdog_.services;
 
-    EXPECT_EQ(step().state, SafeState::kSafe);
+    EXPECT_EQ(step().state, SafeState::kProtectiveStopSs1) << "the gate stops the arm by itself";
     EXPECT_EQ(sut_.get_first_fault(), to_index(ArmFault::kControllerSilent));
     EXPECT_EQ(watchdog_.services, before + 1);
 }
@@ -267,9 +300,12 @@ TEST_F(SafetySupervisorTest, OnePushBringsTheMachineBackOnceTheControllerRunsAga
     operate();
     supervision_.on_budget_overrun(1U, kController, now_);
     step();
-    reading_.torque_enabled = false;
+    step();  // told to close
     reading_.brakes_open = false;
     reading_.brakes_closed = true;
+    step();
+    reading_.torque_enabled = false;
+    ASSERT_EQ(sut_.get_state(), SafeState::kSafe);
     for (int i = 0; i < 5; ++i) {
         supervision_.on_budget_overrun(1U, kController, now_);
         reading_.reset_button = i == 3;

@@ -70,6 +70,7 @@ void SafetyCycle::decide(Instant now) noexcept {
     inputs.start_button = machine.start_button;
     inputs.reset_button = machine.reset_button;
     inputs.faults_cleared = state_.faults_.get_latched_count() == 0U;
+    inputs.brakes_failed = have_brakes_failed(machine, before, now);
     inputs.start_permitted = machine.may_start && is_watchdog_served_;
     inputs.lock_out = is_sto_unconfirmed(machine.has_torque, now);
     const SafeState state = state_.machine_.step(inputs);
@@ -82,7 +83,9 @@ void SafetyCycle::decide(Instant now) noexcept {
         write_event(now, Severity::kWarning, CycleEvent::kReactionBegun,
                     static_cast<std::int64_t>(demand.reaction));
     }
-    const StopOutputs outputs = state_.brakes_.apply(state, now);
+    StopOutputs outputs = state_.brakes_.apply(state, now);
+    outputs.torque_enable =
+        outputs.torque_enable || (state == SafeState::kSelfTest && is_self_testing_ && wants_test_torque());
     command(state, outputs);
     state_.flow_.report(FlowPoint::kCommanded, now);
     const GlobalStatus flow = to_global_status(state_.flow_.supervisor.step(now));
@@ -160,6 +163,16 @@ void SafetyCycle::follow_reset(bool reset_button) noexcept {
         // What is still present stays latched, and the machine then refuses the reset: no status to act on.
         static_cast<void>(state_.faults_.acknowledge_all());
     }
+}
+
+/// Torque may not end while nothing else holds the machine. The bound of the stop is the last chance to say
+/// so.
+bool SafetyCycle::have_brakes_failed(const CycleInputs& machine, SafeState state,
+                                     Instant now) const noexcept {
+    const bool is_at_bound =
+        calc_elapsed(state_.machine_.get_entered_at(), now) >= state_.rules_.stops.ss1_within;
+    const bool is_over = state_.brakes_.is_overdue(now) || (is_at_bound && state_.brakes_.is_waiting());
+    return state == SafeState::kProtectiveStopSs1 && machine.can_hold && machine.is_standing && is_over;
 }
 
 /// The stop of last resort has a confirmation too: the drives' own feedback. Memory that has changed by

@@ -23,6 +23,8 @@ const char* get_name(SafeState state) noexcept {
             return "Safe";
         case SafeState::kLockedOut:
             return "LockedOut";
+        case SafeState::kLockedHold:
+            return "LockedHold";
     }
     return "Invalid";
 }
@@ -37,6 +39,8 @@ const char* get_name(SafeStateEvent event) noexcept {
             return "DemandSto";
         case SafeStateEvent::kDemandSs1:
             return "DemandSs1";
+        case SafeStateEvent::kBrakesFailed:
+            return "BrakesFailed";
         case SafeStateEvent::kStopTimeout:
             return "StopTimeout";
         case SafeStateEvent::kDemandSs2:

@@ -49,6 +49,8 @@ bool SafeStateMachine::is_raised(SafeStateEvent event, SafeState state, const Sa
             // Whoever leaves the place that he should hold is stopped again, with more authority.
             return inputs.demand == Reaction::kSs1 ||
                    (state == SafeState::kStandstillHold && !inputs.standstill);
+        case SafeStateEvent::kBrakesFailed:
+            return inputs.brakes_failed;
         case SafeStateEvent::kStopTimeout:
             return is_stop_overdue(state, inputs);
         case SafeStateEvent::kDemandSs2:

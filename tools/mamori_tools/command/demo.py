@@ -52,7 +52,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--scenario", nargs="+", default=[], metavar="NAME", action="extend",
                         help="only these fault scenarios; default: all of none, encoder_freeze, encoder_freeze_shoulder, encoder_freeze_both, "
                              "encoder_bit_flip, encoder_bias, controller_hang, torque_runaway_shoulder, torque_runaway_elbow, "
-                             "torque_runaway_wrist, message_lost, message_late, message_lost_once, power_loss, supervisor_hang")  # fmt: skip
+                             "torque_runaway_wrist, message_lost, message_late, message_lost_once, power_loss, supervisor_hang, "
+                             "brake_stuck_open, brakes_stuck_open, sto_ignored, relay_stuck, start_with_weak_brake, start_with_sto_ignored, "
+                             "start_with_relay_stuck, processor_stops")  # fmt: skip
     parser.add_argument("--instants", type=at_least_one, metavar="N",
                         help="inject each fault at the first N instants (at least 1) of the campaign plan; default: all instants")  # fmt: skip
     add_jobs(parser)

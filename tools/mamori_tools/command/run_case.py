@@ -35,9 +35,10 @@ FAULT_HELP = """KIND[,key=value...]; default: none
   encoder_bias      joint channel magnitude=RAD, -10 to 10, not 0
   torque_runaway    joint magnitude=FRACTION of the torque limit, -1 to 1, not 0
   message_late      magnitude=SECONDS, above 0 to 10
-  message_lost, power_loss, controller_hang, supervisor_hang, none
-Each kind except none takes at=SECONDS of the motion, before its end, and duration=SECONDS; default: to the end"""
-KEYS = ("joint", "channel", "magnitude", "at", "duration")
+  message_lost, power_loss, controller_hang, supervisor_hang, processor_stops, none
+Each kind except none takes at=SECONDS of the motion, before its end, and duration=SECONDS; default: to the end.
+A second fault shows nothing by itself: latent=brake_stuck_open:JOINT|brake_fade:JOINT|brakes_stuck_open|sto_ignored|relay_stuck"""
+KEYS = ("joint", "channel", "magnitude", "at", "duration", "latent")
 REJECTED_INPUT = 2
 """Exit status of the program for rejected input."""
 
@@ -105,7 +106,7 @@ def select_case(plan: Plan, motion: Motion, fault: str | None) -> Selection:
     return Selection(plan, (replace(scenario, fault=spec),), 1 if scenario.instants else None)
 
 
-_FIELDS = {"joint": "joint", "channel": "channel", "magnitude": "magnitude", "duration": "duration_s"}
+_FIELDS = {"joint": "joint", "channel": "channel", "magnitude": "magnitude", "duration": "duration_s", "latent": "latent"}
 """Key of a fault on the command line -> field of the plan."""
 
 
@@ -115,7 +116,7 @@ def _read_pairs(pairs: Iterable[str], scenario: ArmScenario, motion: Motion) -> 
     kind = scenario.fault.kind
     uses = KINDS[kind]
     timed = kind != "none"
-    valid = [key for key, used in zip(KEYS, (uses.joint, uses.channel, uses.magnitude, timed, timed), strict=True) if used]
+    valid = [key for key, used in zip(KEYS, (uses.joint, uses.channel, uses.magnitude, timed, timed, True), strict=True) if used]
     given: dict[str, Any] = {}
     for pair in pairs:
         key, equal, text = pair.partition("=")
@@ -129,11 +130,13 @@ def _read_pairs(pairs: Iterable[str], scenario: ArmScenario, motion: Motion) -> 
 
 
 def _read_value(key: str, text: str, motion: Motion) -> int | float | str:
-    from mamori_tools.campaign.arm.fault import CHANNELS, FASTEST
+    from mamori_tools.campaign.arm.fault import CHANNELS, FASTEST, LATENT_KINDS
 
     joints = len(motion.joint_names)
     if key == "channel":
         return _demand(text in CHANNELS, text, key, text, _join(CHANNELS))
+    if key == "latent":
+        return _demand(text.partition(":")[0] in LATENT_KINDS, text, key, text, _join(LATENT_KINDS))
     if key == "joint" and text == FASTEST:
         return FASTEST
     if key == "joint":

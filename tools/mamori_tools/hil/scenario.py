@@ -26,6 +26,9 @@ PROCESSES = ("kernel", "controller", "plant")
 MESSAGE_FAULT = "message_lost"
 """The fault of the program that an error on a link replaces."""
 
+PROCESSOR_FAULT = "processor_stops"
+"""A fault of the program that the kill of a process replaces."""
+
 AFTER_S = 1.2
 """Observation time after an error on a link or a killed process [s]: standstill is observed for at least 0.5 s."""
 
@@ -35,8 +38,8 @@ ERRORS_AT = (0.25, 0.5, 0.7)
 WITHIN_S = 0.02
 UNDISTURBED = Expected("Operational", ("None",), ("None",), None, False)
 STOPPED = {
-    "command": Expected("Safe", ("Sto",), ("CommandStale", "ControllerSilent"), WITHIN_S, False),
-    "state": Expected("Safe", ("Sto",), ("CommandStale", "ControllerSilent"), WITHIN_S, False),
+    "command": Expected("Safe", ("Ss1",), ("CommandStale", "ControllerSilent"), WITHIN_S, False),
+    "state": Expected("Safe", ("Ss1",), ("CommandStale", "ControllerSilent"), WITHIN_S, False),
     # Without readings, the supervisor cannot confirm that the torque is off: it stops the watchdog service later.
     "device": Expected("Safe", ("Sto",), ("MeasurementStale",), WITHIN_S, None),
     # The plant closes by itself; its record ends with the last report of the supervisor.
@@ -72,7 +75,8 @@ def list_cases(plan_path: Path, motion: Motion) -> tuple[HilCase, ...]:
     """All cases except kills. The first ones cover each kind once."""
     plan = load_plan(plan_path)
     assert isinstance(plan, ArmPlan)
-    faults = [HilCase(_limit(case, plan, motion)) for case in resolve(select(plan), motion)]
+    faults = [HilCase(_limit(case, plan, motion)) for case in resolve(select(plan), motion)
+              if case.fault is None or case.fault.kind != PROCESSOR_FAULT]  # fmt: skip
     kinds = [(lasting, error, link) for lasting in (True, False) for error in ERRORS for link in LINKS]
     errors = [_make_error(plan, motion, link, error, lasting, number) for number, (lasting, error, link) in enumerate(kinds)]
     return tuple(_interleave(faults, errors))
@@ -88,7 +92,7 @@ def list_kills(plan_path: Path, motion: Motion, count: int, seed: int) -> tuple[
         for process in PROCESSES:
             at_s = round(source.uniform(0.0, motion.duration_s), 6)
             end_s = plan.motion_begins_at_s + motion.duration_s + AFTER_S
-            arm = ArmCase(f"kill_{process}-{number}", f"kill_{process}", f"The {process} is killed", seed, {}, None, round(end_s / FRAME_S), AFTER_S,
+            arm = ArmCase(f"kill_{process}-{number}", f"kill_{process}", f"The {process} is killed", seed, {}, None, "", round(end_s / FRAME_S), AFTER_S,
                           STOPPED["drive"], plan.bounds)  # fmt: skip
             cases.append(HilCase(arm, kill=process, kill_at_s=plan.motion_begins_at_s + at_s))
     return tuple(cases)
@@ -116,7 +120,7 @@ def _make_error(plan: ArmPlan, motion: Motion, link: str, error: str, lasting: b
     stops = error == "delay" or (lasting and error in STOPPING)
     word = "each" if lasting else "one"
     name = f"{error}_{link}{'' if lasting else '_once'}"
-    arm = ArmCase(f"{name}-1", name, f"{error.capitalize()} of {word} message on the link {link}", plan.seed + number, {}, fault,
+    arm = ArmCase(f"{name}-1", name, f"{error.capitalize()} of {word} message on the link {link}", plan.seed + number, {}, fault, "",
                   round((plan.motion_begins_at_s + at_s + AFTER_S) / FRAME_S), AFTER_S, STOPPED[link] if stops else UNDISTURBED,
                   plan.bounds)  # fmt: skip
     return HilCase(arm, link, error)

@@ -25,7 +25,8 @@ NONE = CASES["none-1"]
 FINE = RunFacts("", 3.0, 0.0)
 NEWS = {"used": 2600, "lost": 0, "damaged": 0, "unordered": 0, "initial": 2, "foreign": 0, "truncated": 0, "oversized": 0, "overwritten": 0}
 RUN: dict[str, Any] = {
-    "schema": "mamori.run/1", "commit": "c", "seed": 1, "fault": None, "simulated_s": 2.7, "final_state": "Operational", "operational_at_s": 0.1,
+    "schema": "mamori.run/1", "commit": "c", "seed": 1, "fault": None, "latent": None, "simulated_s": 2.7, "final_state": "Operational",
+    "operational_at_s": 0.1,
     "detected_fault": None, "detected_at_s": None, "reaction": None, "reacted_at_s": None, "standstill_at_s": None, "watchdog_bitten": False,
     "physics": {"max_speed_rad_s": [0.1] * 7, "speed_limit_rad_s": [1.0] * 7, "min_position_margin_rad": 1.0, "stop_travel_rad": [0.0] * 7,
                 "hold_drift_rad": 0.0, "max_tracking_error_rad": 0.001},

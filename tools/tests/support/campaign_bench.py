@@ -49,6 +49,7 @@ out = arguments["--out"]
 simulated = int(arguments["--frames"]) / 1000 if "--frames" in arguments else 4.2
 run = {{"schema": "mamori.run/1", "commit": os.environ.get("MAMORI_COMMIT", "none"), "seed": int(arguments["--seed"]), "wall_s": time.time(),
        "simulated_s": simulated,
+       "latent": None,
        "fault": pairs and {{"kind": pairs["kind"], "joint": None, "channel": None, "at_s": at, "motion_at_s": float(pairs["at"]), "magnitude": mode}},
        "final_state": "Safe" if pairs else "Operational", "operational_at_s": 0.05,
        "detected_fault": "CommandStale" if pairs else None, "detected_at_s": at and at + 0.01,

@@ -30,10 +30,10 @@ namespace virtual_time = mamori::ports::virtual_time;
 constexpr double kCountsPerRad = 100000.0;
 
 // The sequence of the run: start, encoder jump, reset and start, hang of the controller.
-constexpr Instant kFirstStart{100000000};
-constexpr Instant kEncoderJumps{300000000};
+constexpr Instant kFirstStart{250000000};
+constexpr Instant kEncoderJumps{400000000};
 constexpr Instant kReset{900000000};
-constexpr Instant kSecondStart{1100000000};
+constexpr Instant kSecondStart{1150000000};
 constexpr Instant kControllerHangs{1400000000};
 constexpr Duration kPush = 50_ms;
 constexpr Duration kControllerTime = 120_us;
@@ -87,6 +87,7 @@ constexpr auto kSystem = mamori::safety::system(
     mamori::connect(supervisor.stop, controller.stop, mamori::through(stop_crossing), mamori::any_age()),
     mamori::connect(controller.command, channel.in, mamori::through(command_crossing), mamori::any_age()),
     mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
+    mamori::connect(monitor.state, gate.arm_state, mamori::any_age()),
     mamori::connect(channel.out, gate.command, mamori::any_age()));
 MAMORI_SAFETY_CHECK(kSystem);
 
@@ -116,7 +117,8 @@ void ObedientDevices::sample(std::uint64_t, Instant now) noexcept {
     inputs.encoder_a_counts[2] = now >= kEncoderJumps && now < kReset ? 5000 : 0;
     inputs.measured_torque_nm = outputs.torque_nm;
     inputs.brake_closed.fill(!outputs.brake_release);
-    inputs.torque_enabled = outputs.torque_enable;
+    inputs.torque_enabled = outputs.torque_enable && outputs.relay_close;
+    inputs.relay_closed = outputs.relay_close;
     inputs.power_good = true;
     inputs.start_button = is_pushed(kFirstStart, now) || is_pushed(kSecondStart, now);
     inputs.reset_button = is_pushed(kReset, now);

@@ -174,7 +174,7 @@ class Model:
                 places = np.argwhere(part == target).tolist()
                 for guard, times in promela.list_guards(limit, {place[-1] for place in places}):
                     at = max((place for place in places if place[-1] in times), key=lambda place: place[-1])
-                    letter = (demands[at[0]], at[1], at[2], int(standstill), at[3], at[4], start, at[5], at[6])
+                    letter = (demands[at[0]], at[1], at[2], int(standstill), at[3], at[4], start, *at[5:])
                     yield letter, not is_sto and letter[-1] == WITHIN, guard
 
     def write(self, properties: Sequence[Property]) -> str:

@@ -31,8 +31,9 @@ BRAKE_PROPERTIES: tuple[Property, ...] = (
     ),
     Property(
         "brakes-close-under-torque-in-ss1-only", "SWR-FSM-026",
-        "In a state that has torque of its own the brakes are closed only in an SS1 in which the machine was measured standing.",
-        step="(=> (and (own_torque r) (not open_out)) (and (= r ProtectiveStopSs1) stood_now))",
+        "In a state that has torque of its own the brakes are closed only in an SS1 in which the machine was measured standing, and in the"
+        " locked hold.",
+        step="(=> (and (own_torque r) (not open_out)) (or (= r LockedHold) (and (= r ProtectiveStopSs1) stood_now)))",
         is_coupled=True,
     ),
     Property(

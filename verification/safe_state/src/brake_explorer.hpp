@@ -282,7 +282,7 @@ class BrakeExplorer final {
 template <typename Sequence>
 BrakeRelation explore_all_brakes() {
     const std::vector<std::pair<Duration, unsigned>> cases{
-        {Duration{2}, 255U}, {Duration{5}, 0U}, {Duration{100}, 10U}, {Duration{200'000'000}, 128U}};
+        {Duration{2}, 255U}, {Duration{5}, 0U}, {Duration{100}, 11U}, {Duration{200'000'000}, 128U}};
     std::optional<BrakeRelation> relation;
     std::uint64_t calls = 0U;
     for (const auto& [closes_within, invalid] : cases) {

@@ -74,6 +74,7 @@ inline std::vector<InputKind> make_input_kinds() {
             {"start_permitted", levels},
             {"start_button", levels},
             {"reset_button", levels},
+            {"brakes_failed", levels},
             {"time", {"BeforeEntry", "Within", "AtBound", "Beyond"}}};
 }
 
@@ -83,16 +84,17 @@ inline std::vector<SafeStateInputs> make_all_inputs(std::uint8_t invalid) {
     std::vector<SafeStateInputs> all;
     for (unsigned demand = 0U; demand <= 5U; ++demand) {
         for (unsigned self_test = 0U; self_test <= 3U; ++self_test) {
-            for (unsigned bits = 0U; bits < 64U; ++bits) {
+            for (unsigned bits = 0U; bits < 128U; ++bits) {
                 SafeStateInputs inputs;
                 inputs.demand = static_cast<Reaction>(demand == 5U ? invalid : demand);
                 inputs.self_test = static_cast<SelfTestStatus>(self_test == 3U ? invalid : self_test);
-                inputs.lock_out = (bits & 32U) != 0U;
-                inputs.standstill = (bits & 16U) != 0U;
-                inputs.faults_cleared = (bits & 8U) != 0U;
-                inputs.start_permitted = (bits & 4U) != 0U;
-                inputs.start_button = (bits & 2U) != 0U;
-                inputs.reset_button = (bits & 1U) != 0U;
+                inputs.lock_out = (bits & 64U) != 0U;
+                inputs.standstill = (bits & 32U) != 0U;
+                inputs.faults_cleared = (bits & 16U) != 0U;
+                inputs.start_permitted = (bits & 8U) != 0U;
+                inputs.start_button = (bits & 4U) != 0U;
+                inputs.reset_button = (bits & 2U) != 0U;
+                inputs.brakes_failed = (bits & 1U) != 0U;
                 all.push_back(inputs);
             }
         }

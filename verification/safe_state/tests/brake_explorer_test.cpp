@@ -88,7 +88,7 @@ TEST(BrakeExplorerTest, RelationSaysWhatTheCompiledSequenceAnswersToRandomCalls)
         Instant now{static_cast<std::int64_t>(random() % 1000U)};
         for (int call = 0; call < 60; ++call) {
             now = advance(now, random);
-            const auto state = static_cast<SafeState>(random() % 12U);  // 0, 10 and 11 are invalid
+            const auto state = static_cast<SafeState>(random() % 12U);  // 0 and 11 are invalid
             const bool is_standing = random() % 2U == 0U;
             const bool are_closed = random() % 2U == 0U;
             if (random() % 2U == 0U) {
@@ -119,7 +119,7 @@ TEST(BrakeExplorerTest, RelationSaysWhatTheCompiledSequenceDoesUnderTheMachine) 
         for (int cycle = 0; cycle < 80; ++cycle) {
             inputs.now = advance(inputs.now, random);
             const auto choice = random() % 12U;
-            inputs.demand = choice < 4U ? static_cast<safety::Reaction>(choice) : safety::Reaction::kNone;
+            inputs.demand = choice < 5U ? static_cast<safety::Reaction>(choice) : safety::Reaction::kNone;
             inputs.self_test =
                 cycle % 2 == 0 ? safety::SelfTestStatus::kRunning : safety::SelfTestStatus::kPassed;
             inputs.start_button = random() % 2U == 0U;
@@ -128,6 +128,7 @@ TEST(BrakeExplorerTest, RelationSaysWhatTheCompiledSequenceDoesUnderTheMachine) 
             const bool are_closed = random() % 3U == 0U;
             const SafeState before = machine.get_state();
             inputs.standstill = sut.confirm(before, is_standing, are_closed, inputs.now);
+            inputs.brakes_failed = random() % 4U == 0U && sut.is_waiting();
             ASSERT_EQ(walk.confirm(before, is_standing, are_closed, inputs.now), inputs.standstill);
             const SafeState after = machine.step(inputs);
             ++visits[static_cast<std::size_t>(after)];
@@ -135,7 +136,7 @@ TEST(BrakeExplorerTest, RelationSaysWhatTheCompiledSequenceDoesUnderTheMachine) 
             ASSERT_EQ(walk.is_overdue(inputs.now), sut.is_overdue(inputs.now)) << "run " << run;
         }
     }
-    for (std::size_t state = 1U; state < safety::kSafeStateCount; ++state) {
+    for (std::size_t state = 1U; state <= safety::kSafeStateCount; ++state) {
         EXPECT_GT(visits[state], 50U) << get_name(static_cast<SafeState>(state));
     }
 }
@@ -200,8 +201,8 @@ class TellingSequence final : public Extended {
   public:
     using Extended::Extended;
     StopOutputs apply(SafeState state, Instant now) noexcept {
-        const bool is_ten = static_cast<std::uint8_t>(state) == 10U;
-        return sequence_.apply(is_ten ? SafeState::kOperational : state, now);
+        const bool is_eleven = static_cast<std::uint8_t>(state) == 11U;
+        return sequence_.apply(is_eleven ? SafeState::kOperational : state, now);
     }
 };
 

@@ -62,14 +62,14 @@ TEST(ExplorerTest, EveryCombinationOfInputsIsAnsweredInEverySituation) {
     }
 
     EXPECT_EQ(letters, make_all_inputs(255U).size() * kTimeClassCount);
-    ASSERT_EQ(relation.situations.size(), 74U);
+    ASSERT_EQ(relation.situations.size(), 82U);
     for (const Situation& situation : relation.situations) {
         ASSERT_EQ(situation.next.size(), letters);
         EXPECT_EQ(situation.limit != Limit::kNone, situation.state == SafeState::kProtectiveStopSs2 ||
                                                        situation.state == SafeState::kProtectiveStopSs1);
     }
     EXPECT_FALSE(relation.situations.back().is_consistent) << "all corrupted objects behave alike";
-    EXPECT_EQ(relation.corrupted_objects, 73U * 16U) << "each bit of the state and of its complement";
+    EXPECT_EQ(relation.corrupted_objects, 81U * 16U) << "each bit of the state and of its complement";
 }
 
 /// The shipped machine with additions. A derived class appends its members to those of the shipped machine.

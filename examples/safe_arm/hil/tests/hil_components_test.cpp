@@ -83,7 +83,6 @@ TEST(ControllerViewTest, TellsTheControllerStateAndDecision) {
     EXPECT_EQ(input.velocity_rad_s, state.velocity_rad_s);
     EXPECT_TRUE(input.is_operational);
     EXPECT_TRUE(input.torque_enable);
-    EXPECT_FALSE(input.stop_requested);
 }
 
 class DriveEncoderTest : public ::testing::Test {

@@ -25,6 +25,7 @@ class HilPlantTest : public ::testing::Test {
         result.watchdog_services = services;
         result.outputs.torque_enable = true;
         result.outputs.brake_release = true;
+        result.outputs.relay_close = true;
         result.report.is_stopping = false;
         return result;
     }

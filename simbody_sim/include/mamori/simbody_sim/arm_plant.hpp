@@ -42,8 +42,8 @@ class ArmPlant final {
     ArmPlant(const ArmPlant&) = delete;
     ArmPlant& operator=(const ArmPlant&) = delete;
 
-    /// Time zero, at rest, brakes closed, torque off, devices sound, watchdog relay closed, buttons released.
-    /// The observer stays. @param[in] q0 positions [rad], finite.
+    /// Time zero, at rest, brakes closed, torque off, devices sound, watchdog served, relay open, buttons
+    /// released. The observer stays. @param[in] q0 positions [rad], finite.
     void reset(const JointVector& q0);
 
     /// Lets time pass with constant commands. A command that is no finite number counts as zero torque.
@@ -55,7 +55,7 @@ class ArmPlant final {
     /// Samples the devices now. @return the image, valid until the next call of a non-const member.
     const safety::ArmInputs& sample();
 
-    /// Relay of the hardware watchdog: while expired, torque and brake current are off whatever is commanded.
+    /// Hardware watchdog: while expired, the relay is open, and torque and brake current are off.
     void set_watchdog_expired(bool expired) noexcept;
     /// Operator's buttons as the next sample shows them.
     void set_buttons(bool start, bool reset) noexcept;

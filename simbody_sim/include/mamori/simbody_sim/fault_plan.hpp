@@ -18,8 +18,8 @@
 
 namespace mamori::sim {
 
-/// The first five after kNone and kBrakeFade, kPowerLoss are faults of the plant; the others are the
-/// runner's.
+/// From kControllerHang to kSupervisorHang and kProcessorStops the runner's, the others are faults of the
+/// plant.
 enum class FaultKind : std::uint8_t {
     kNone,
     kEncoderFreeze,
@@ -32,6 +32,11 @@ enum class FaultKind : std::uint8_t {
     kMessageLost,
     kMessageLate,  ///< magnitude: delay in seconds, above 0 up to 10
     kSupervisorHang,
+    kBrakeStuckOpen,   ///< one brake does not close
+    kBrakesStuckOpen,  ///< no brake closes
+    kStoIgnored,       ///< the drives ignore safe torque off
+    kRelayStuck,       ///< the second switch-off path does not open
+    kProcessorStops,   ///< the outputs keep their last values, and nothing services the watchdog
 };
 
 enum class FaultChannel : std::uint8_t { kA, kB, kBoth };
@@ -46,6 +51,9 @@ enum class FaultSpan : std::uint8_t {
 /// Length of a fault that happens once.
 inline constexpr Duration kOnceLength{1000000};
 
+/// Fraction of its torque that a latent brake_fade takes from the brake, since the start of the run.
+inline constexpr double kLatentFade = 0.5;
+
 /// Parts that a kind does not use keep their default.
 struct FaultPlan {
     FaultKind kind{FaultKind::kNone};
@@ -56,6 +64,10 @@ struct FaultPlan {
     Duration duration{};  ///< > 0 with kForTime, otherwise 0
     double magnitude{0.0};
     std::uint64_t seed{0U};  ///< of the run; no kind draws from it by itself
+    /// Second fault, which shows nothing until something else fails: see may_be_latent; kNone: none.
+    FaultKind latent{FaultKind::kNone};
+    std::size_t latent_joint{0U};
+    Duration latent_at{};  ///< since time zero, >= 0; it stays
 };
 
 bool operator==(const FaultPlan& a, const FaultPlan& b) noexcept;
@@ -71,6 +83,13 @@ const char* get_name(FaultChannel channel) noexcept;
 /// All kinds as text, separated by commas, for a help text.
 std::string list_fault_kinds();
 
+/// True for the kinds that can be latent.
+bool may_be_latent(FaultKind kind) noexcept;
+
+/// The plan with its instants counted from `by` later. Without another fault, a latent one is present since
+/// time zero: it is there when the machine is switched on.
+FaultPlan delay(const FaultPlan& plan, Duration by) noexcept;
+
 /// Which parts a kind uses; the parser demands them and refuses the others.
 bool uses_joint(FaultKind kind) noexcept;
 bool uses_channel(FaultKind kind) noexcept;
@@ -83,8 +102,8 @@ struct ParsedFaultPlan {
 };
 
 /// Reads `key=value` pairs, separated by commas: kind (always), joint, channel, at [s], duration
-/// (once | persistent | seconds; persistent when left out), magnitude, seed.
-/// Example: `kind=encoder_freeze,joint=2,channel=a,at=2.0`
+/// (once | persistent | seconds; persistent when left out), magnitude, seed, latent (kind, or kind:joint).
+/// Example: `kind=encoder_freeze,joint=2,channel=a,at=2.0,latent=brake_stuck_open:2`
 ParsedFaultPlan parse_fault_plan(std::string_view text);
 
 /// The text that parses to the same plan.

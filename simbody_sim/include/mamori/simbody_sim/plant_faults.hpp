@@ -29,7 +29,11 @@ struct PlantFaults {
     std::array<std::optional<double>, safety::kArmJointCount> torque_runaway{};
     /// Fraction of its torque that the brake has lost, 0 .. 1.
     safety::JointVector brake_fade{};
+    /// The brake stays open once it is open; its contact says so.
+    std::array<bool, safety::kArmJointCount> brake_stuck_open{};
     bool power_lost{false};
+    bool sto_ignored{false};  ///< the drives keep their torque when their safe-torque-off input demands none
+    bool relay_stuck{false};  ///< the relay stays closed once it is closed; its contact says so
 };
 
 }  // namespace mamori::sim

@@ -38,9 +38,15 @@ KINDS: Mapping[str, Uses] = {
     "message_lost": Uses(),
     "message_late": Uses(magnitude=True),
     "supervisor_hang": Uses(),
+    "brake_stuck_open": Uses(joint=True),
+    "brakes_stuck_open": Uses(),
+    "sto_ignored": Uses(),
+    "relay_stuck": Uses(),
+    "processor_stops": Uses(),
 }
+LATENT_KINDS = ("brake_stuck_open", "brakes_stuck_open", "brake_fade", "sto_ignored", "relay_stuck")
 
-_KEYS = frozenset({"kind", "joint", "channel", "magnitude", "duration_s", "min_speed_rad_s"})
+_KEYS = frozenset({"kind", "joint", "channel", "magnitude", "duration_s", "min_speed_rad_s", "latent"})
 
 
 @dataclass(frozen=True)
@@ -49,6 +55,8 @@ class FaultSpec:
 
     `min_speed_rad_s`: the injection waits until that joint reaches this speed; None: no waiting.
     `duration_s`: None means until the end of the run.
+    `latent`: a second fault that shows nothing by itself, as `kind` or `kind:joint`; empty: none. Present since the start of the motion, or,
+    with the kind `none`, since power-up.
     """
 
     kind: str
@@ -57,6 +65,7 @@ class FaultSpec:
     magnitude: float | None = None
     duration_s: float | None = None
     min_speed_rad_s: float | None = None
+    latent: str = ""
 
 
 @dataclass(frozen=True)
@@ -112,7 +121,16 @@ def read_fault(node: Node) -> FaultSpec:
         entries["magnitude"].as_float() if uses.magnitude else None,
         read_positive(entries["duration_s"]) if "duration_s" in entries else None,
         read_positive(entries["min_speed_rad_s"]) if "min_speed_rad_s" in entries else None,
+        _read_latent(entries["latent"]) if "latent" in entries else "",
     )
+
+
+def _read_latent(node: Node) -> str:
+    text = node.as_text()
+    kind = text.partition(":")[0]
+    if kind not in LATENT_KINDS:
+        raise node.error(f"unknown latent fault '{kind}'; {nearest_names(kind, LATENT_KINDS)}")
+    return text
 
 
 def read_positive(node: Node) -> float:

@@ -33,14 +33,22 @@ def judge(case: ArmCase, run: Mapping[str, Any] | None, problem: str = "") -> li
     return checks
 
 
+def describe_faults(case: ArmCase) -> str:
+    """The argument `--fault` of the program."""
+    first = "kind=none" if case.fault is None else case.fault.to_text()
+    return f"{first},latent={case.latent}" if case.latent else first
+
+
 def _judge_setting(case: ArmCase, record: RunRecord) -> list[Check]:
     """Checks that the run is the requested one: the right fault, in operation at the injection, observed long enough."""
     if case.fault is None:
-        wanted = "no fault"
+        wanted = describe_faults(case)
         difference = "" if record.fault is None else f"{record.fault.get('kind')}"
     else:
-        wanted = case.fault.to_text()
+        wanted = describe_faults(case)
         difference = case.fault.find_difference(record.fault)
+    if not difference and record.latent != case.latent:
+        difference = f"latent {record.latent or 'none'}"
     start = record.operational_at_s
     begin = record.injected_at_s
     end = (begin or 0.0) + case.watch_s
@@ -49,7 +57,8 @@ def _judge_setting(case: ArmCase, record: RunRecord) -> list[Check]:
         Check("fault injected", wanted, difference or "as wanted", not difference),
         Check("seed", str(case.seed), str(record.seed), record.seed == case.seed),
         Check("operational first", "operational" if begin is None else f"operational before {begin:.3f} s",
-              _show(start, "s", "never operational"), in_time),
+              _show(start, "s", "never operational"), in_time) if case.expected.operational else
+        Check("start refused", "never operational", _show(start, "s", "never operational"), start is None),
         Check("time watched", f">= {end:.3f} s", f"{record.simulated_s:.3f} s", record.simulated_s >= end - ROUNDING_S),
     ]  # fmt: skip
 
@@ -57,6 +66,8 @@ def _judge_setting(case: ArmCase, record: RunRecord) -> list[Check]:
 def _judge_false_trip(case: ArmCase, record: RunRecord) -> Check:
     """Checks that nothing is detected and nothing reacts before the fault."""
     happened = [("detected", record.detected_fault, record.detected_at_s), ("reacted", record.reaction, record.reacted_at_s)]
+    if not case.expected.operational:
+        happened = happened[1:]  # the self test detects the fault
     events = [(verb, name, at_s) for verb, name, at_s in happened if name not in (None, NOTHING)]
     begin = record.injected_at_s
     if begin is None or not case.expected.wants_reaction:

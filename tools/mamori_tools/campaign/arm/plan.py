@@ -18,7 +18,7 @@ SUBJECT_NAME = "arm"
 _TOP_KEYS = frozenset({"schema", "subject", "seed", "instants", "motion_begins_at_s", "observe_s", "bounds", "scenarios"})
 _BOUND_KEYS = frozenset({"hold_drift_rad", "hold_observed_s", "tracking_error_rad"})
 _SCENARIO_KEYS = frozenset({"name", "title", "fault", "at", "at_s", "expected", "requirements"})
-_EXPECTED_KEYS = frozenset({"state", "reaction", "detected_fault", "within_s", "watchdog_bitten"})
+_EXPECTED_KEYS = frozenset({"state", "reaction", "detected_fault", "within_s", "watchdog_bitten", "operational"})
 
 
 @dataclass(frozen=True)
@@ -36,13 +36,14 @@ class Bounds:
 
 @dataclass(frozen=True)
 class Expected:
-    """The expected result of a case. `within_s` is None exactly if no reaction is expected."""
+    """The expected result of a case. `within_s` is None exactly if no reaction is expected. `operational`: the machine starts."""
 
     state: str
     reactions: tuple[str, ...]
     detected_faults: tuple[str, ...]
     within_s: float | None
     watchdog_bitten: bool | None = None
+    operational: bool = True
 
     @property
     def wants_reaction(self) -> bool:
@@ -125,7 +126,8 @@ def _read_expected(node: Node) -> Expected:
     if (reactions == (NOTHING,)) == ("within_s" in entries):
         raise node.error("'within_s' belongs to a case with a reaction, and only there")
     within_s = read_positive(entries["within_s"]) if "within_s" in entries else None
-    return Expected(state, reactions, faults, within_s, bitten)
+    operational = entries["operational"].as_bool() if "operational" in entries else True
+    return Expected(state, reactions, faults, within_s, bitten, operational)
 
 
 def _read_names(node: Node, known: Sequence[str]) -> tuple[str, ...]:

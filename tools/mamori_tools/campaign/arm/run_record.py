@@ -27,6 +27,7 @@ class RunRecord:
     commit: str
     seed: int
     fault: Mapping[str, Any] | None
+    latent: str
     injected_at_s: float | None
     simulated_s: float
     final_state: str
@@ -74,6 +75,7 @@ def read_record(run: Mapping[str, Any]) -> RunRecord:
         commit=_take(run, "commit", str),
         seed=_take(run, "seed", int),
         fault=fault,
+        latent=_take_or_none(run, "latent", str) or "",
         injected_at_s=None if fault is None else _take_number(fault, "at_s"),
         simulated_s=_take_number(run, "simulated_s"),
         final_state=_take(run, "final_state", str),

@@ -27,11 +27,12 @@ SEARCH_STEP_S = 0.01
 class ArmCase(Case):
     """One run: all its inputs, and all criteria for its evaluation.
 
-    `fault` is None for a fault-free run. `frames` is None if the program itself ends with the motion. `watch_s`: minimum duration of the
-    run after the injection, or, without an injection, its minimum total duration [s].
+    `fault` is None for a run without an injection; `latent` as in FaultSpec. `frames` is None if the program itself ends with the motion.
+    `watch_s`: minimum duration of the run after the injection, or, without an injection, its minimum total duration [s].
     """
 
     fault: Fault | None
+    latent: str
     frames: int | None
     watch_s: float
     expected: Expected
@@ -65,6 +66,7 @@ def _make_case(plan: ArmPlan, scenario: ArmScenario, number: int, fault: Fault |
         scenario=scenario.name,
         title=scenario.title.replace("{joint}", joint),
         fault=fault,
+        latent=scenario.fault.latent,
         seed=plan.seed,
         frames=None if fault is None else math.ceil(round(end_s / FRAME_S, 6)),
         watch_s=plan.motion_begins_at_s + motion.duration_s if fault is None else plan.observe_s,

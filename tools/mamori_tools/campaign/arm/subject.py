@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from mamori_tools.campaign.arm.fault import KINDS
-from mamori_tools.campaign.arm.judge import judge
+from mamori_tools.campaign.arm.judge import describe_faults, judge
 from mamori_tools.campaign.arm.plan import SUBJECT_NAME, ArmPlan, read_plan
 from mamori_tools.campaign.arm.run_record import load_run
 from mamori_tools.campaign.arm.selection import ArmCase, resolve
@@ -52,8 +52,8 @@ class Arm:
     def command(self, case: Case, program: Path, inputs: Path, folder: Path) -> tuple[str, ...]:
         assert isinstance(case, ArmCase)
         command = [str(program), "run", "--model", str(inputs / MODEL), "--motion", str(inputs / MOTION)]
-        if case.fault is not None:
-            command += ["--fault", case.fault.to_text()]
+        if case.fault is not None or case.latent:
+            command += ["--fault", describe_faults(case)]
         command += ["--seed", str(case.seed)]
         if case.frames is not None:
             command += ["--frames", str(case.frames)]
@@ -73,7 +73,7 @@ class Arm:
         assert isinstance(case, ArmCase)
         expected = case.expected
         return {
-            "polarity": "nominal" if case.fault is None else "violation",
+            "polarity": "violation" if case.fault is not None or case.latent else "nominal",
             "expected": {"state": expected.state, "reaction": list(expected.reactions),
                          "detected_fault": list(expected.detected_faults), "within_s": expected.within_s},
         }  # fmt: skip

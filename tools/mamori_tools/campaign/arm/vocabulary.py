@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 STATES = ("SelfTest", "Standby", "Operational", "Degraded", "ProtectiveStopSs2", "ProtectiveStopSs1", "StandstillHold", "Safe",
-          "LockedOut")  # fmt: skip
+          "LockedOut", "LockedHold")  # fmt: skip
 
 NOTHING = "None"
 """Spelling of "no reaction" and "no fault detected" in plans and verdicts; run.json contains null."""
@@ -14,4 +14,5 @@ STOPS = frozenset({"Ss2", "Ss1", "Sto"})
 
 DETECTED_FAULTS = (NOTHING, "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck", "FollowingError", "Overspeed",
                    "PositionLimit", "TorqueDeviation", "ControllerSilent", "CommandStale", "PowerLost", "BrakeFault",
-                   "SelfTestFailed", "MeasurementStale", "ReactionLate", "SupervisorSilent", "WatchdogExpired")  # fmt: skip
+                   "SelfTestFailed", "MeasurementStale", "ReactionLate", "BrakeTestOld", "StopNotFollowed",
+                   "SupervisorSilent", "WatchdogExpired")  # fmt: skip

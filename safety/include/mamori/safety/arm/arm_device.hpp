@@ -33,6 +33,8 @@ struct ArmInputs {
     std::array<bool, kArmJointCount> brake_closed{};
     /// Feedback of the safe-torque-off input of the drives: true = torque is possible.
     bool torque_enabled{false};
+    /// Feedback contact of the relay that feeds drives and brakes (EDM): true = closed.
+    bool relay_closed{false};
     /// Drive supply voltage is inside its range.
     bool power_good{false};
     /// Operator asks for operation (deliberate rising edge).
@@ -49,12 +51,15 @@ struct ArmOutputs {
     bool torque_enable{false};
     /// Safe brake control: false = all brakes close (SBC, IEC 61800-5-2).
     bool brake_release{false};
+    /// Second switch-off path: false = the relay cuts the supply of drives and brakes. The watchdog opens it,
+    /// too.
+    bool relay_close{false};
 };
 
 }  // namespace mamori::safety
 
 MAMORI_FIELDS(mamori::safety::ArmInputs, encoder_a_counts, encoder_b_counts, measured_torque_nm, brake_closed,
-              torque_enabled, power_good, start_button, reset_button)
-MAMORI_FIELDS(mamori::safety::ArmOutputs, torque_nm, torque_enable, brake_release)
+              torque_enabled, relay_closed, power_good, start_button, reset_button)
+MAMORI_FIELDS(mamori::safety::ArmOutputs, torque_nm, torque_enable, brake_release, relay_close)
 
 #endif  // MAMORI_SAFETY_ARM_ARM_DEVICE_HPP

@@ -4,7 +4,7 @@
 /// safe-state machine, commands its outputs and serves the watchdog on proven health, always in this order. A
 /// machine derives its supervisor and adds only its inputs and outputs.
 ///
-/// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007
+/// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009
 /// Design:   docs/design/safety_cycle.md#order
 #ifndef MAMORI_SAFETY_SAFETY_CYCLE_HPP
 #define MAMORI_SAFETY_SAFETY_CYCLE_HPP
@@ -41,6 +41,7 @@ struct CycleInputs {
     bool may_start{false};                          ///< the start is bumpless
     StopOutputs applied{true, true, false, false};  ///< what the outputs of the last frame were
     std::size_t mode{0U};  ///< of the system; 0 without modes. An invalid one demands STO
+    bool can_hold{false};  ///< torque can hold the machine without its brakes
 };
 
 /// Thread safety: none; the executive calls it. Time: O(components + faults * reactions).
@@ -77,6 +78,8 @@ class SafetyCycle : public Component {
     virtual CycleInputs read_inputs(Instant now) noexcept = 0;
     /// @param[in] is_first first cycle of the self test, at power-up and after a reset. Only called there.
     virtual SelfTestStatus step_self_test(bool is_first, Instant now) noexcept = 0;
+    /// @return true for torque against the closed brakes in this frame of the self test. Only called there.
+    virtual bool wants_test_torque() noexcept { return false; }
     /// @return true while the fault is present.
     virtual bool is_present(FaultIndex fault) noexcept = 0;
     /// Writes the commands. @param[in] state of the machine.
@@ -97,6 +100,7 @@ class SafetyCycle : public Component {
     bool is_expired(const SuperviseRow& row) noexcept;
     Status require_healing(const SuperviseRow& row) noexcept;
     void follow_reset(bool reset_button) noexcept;
+    bool have_brakes_failed(const CycleInputs& machine, SafeState state, Instant now) const noexcept;
     bool is_sto_unconfirmed(bool has_torque, Instant now) noexcept;
     void measure_reaction(const ReactionDemand& demand, const StopOutputs& applied, Instant now) noexcept;
     void serve_watchdog(GlobalStatus health, bool is_trustworthy, Instant now) noexcept;

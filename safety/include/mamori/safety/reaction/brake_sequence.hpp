@@ -58,11 +58,16 @@ class BrakeSequence final {
     ///         for less than `closes_within` after the command.
     [[nodiscard]] StopOutputs apply(SafeState state, Instant now) noexcept;
 
+    /// @return true while the brakes have been told to close and their contacts have not said so in the last
+    ///         confirm(). False without contacts.
+    [[nodiscard]] bool is_waiting() const noexcept {
+        return is_told_ && limits_.has_contacts && !are_closed_;
+    }
+
     /// @return true when the brakes were told to close more than `closes_within` ago, or later than `now`,
     ///         and their contacts did not say so in the last confirm(). False without contacts.
     [[nodiscard]] bool is_overdue(Instant now) const noexcept {
-        return is_told_ && limits_.has_contacts && !are_closed_ &&
-               is_over(told_at_, now, limits_.closes_within);
+        return is_waiting() && is_over(told_at_, now, limits_.closes_within);
     }
 
   private:

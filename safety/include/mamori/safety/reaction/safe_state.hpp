@@ -3,8 +3,9 @@
 /// States of a guarded machine, the events that move it, and the one table of its transitions. The design
 /// note shows the same table as a diagram; a test compares the two.
 ///
-/// @satisfies SWR-FSM-001, SWR-FSM-002, SWR-FSM-003      Design: docs/design/safe_state.md#states
-/// Source:   IEC 61800-5-2 (STO, SS1, SS2, SOS), IEC 60204-1 (stop categories 0, 1, 2)
+/// @satisfies SWR-FSM-001, SWR-FSM-002, SWR-FSM-003, SWR-FSM-037      Design:
+/// docs/design/safe_state.md#states Source:   IEC 61800-5-2 (STO, SS1, SS2, SOS), IEC 60204-1 (stop
+/// categories 0, 1, 2)
 #ifndef MAMORI_SAFETY_SAFE_STATE_HPP
 #define MAMORI_SAFETY_SAFE_STATE_HPP
 
@@ -25,8 +26,9 @@ enum class SafeState : std::uint8_t {
     kStandstillHold = 7U,     ///< stands, held under torque (SOS)
     kSafe = 8U,               ///< torque off, brakes closed, waits for a deliberate reset
     kLockedOut = 9U,          ///< torque off, brakes closed, until power is cycled
+    kLockedHold = 10U,        ///< stands, held under torque because its brakes failed, until power is cycled
 };
-inline constexpr std::size_t kSafeStateCount = 9U;
+inline constexpr std::size_t kSafeStateCount = 10U;
 
 /// What happens to it, the most urgent first: of several events at once the first that changes the state
 /// wins.
@@ -35,6 +37,7 @@ enum class SafeStateEvent : std::uint8_t {
     kSelfTestFailed,       ///< a self test failed, at power-up or later
     kDemandSto,            ///< torque off is demanded
     kDemandSs1,            ///< controlled stop, then torque off, is demanded
+    kBrakesFailed,         ///< the machine stands, and its brakes do not close
     kStopTimeout,          ///< a stop was not confirmed within its bound
     kDemandSs2,            ///< controlled stop, then hold, is demanded
     kStandstillConfirmed,  ///< the stop is confirmed
@@ -44,14 +47,14 @@ enum class SafeStateEvent : std::uint8_t {
     kSelfTestPassed,       ///< the self test of this visit passed
     kStart,                ///< a person started it, and its conditions hold
 };
-inline constexpr std::size_t kSafeStateEventCount = 12U;
+inline constexpr std::size_t kSafeStateEventCount = 13U;
 
 /// Transitions: row = state, column = event, value = next state.
 using SafeStateTable = std::array<std::array<SafeState, kSafeStateEventCount>, kSafeStateCount>;
 
-/// True for one of the nine states.
+/// True for one of the ten states.
 constexpr bool is_valid(SafeState state) noexcept {
-    return state >= SafeState::kSelfTest && state <= SafeState::kLockedOut;
+    return state >= SafeState::kSelfTest && state <= SafeState::kLockedHold;
 }
 
 namespace detail {
@@ -66,18 +69,20 @@ constexpr SafeStateTable make_safe_state_table() noexcept {
     constexpr auto kHold = SafeState::kStandstillHold;
     constexpr auto kSafe = SafeState::kSafe;
     constexpr auto kLock = SafeState::kLockedOut;
+    constexpr auto kLHld = SafeState::kLockedHold;
     // clang-format off
     return {{
-    //           LockOut TestFail Sto    Ss1    Timeout Ss2    Stands Degrade Reset  Restore TestPass Start
-    /* kTest */ {{kLock, kLock,   kSafe, kSafe, kTest,  kSafe, kTest, kTest,  kTest, kTest,  kStby,   kTest}},
-    /* kStby */ {{kLock, kLock,   kSafe, kSafe, kStby,  kSafe, kStby, kStby,  kStby, kStby,  kStby,   kOper}},
-    /* kOper */ {{kLock, kLock,   kSafe, kStp1, kOper,  kStp2, kOper, kDegr,  kOper, kOper,  kOper,   kOper}},
-    /* kDegr */ {{kLock, kLock,   kSafe, kStp1, kDegr,  kStp2, kDegr, kDegr,  kDegr, kOper,  kDegr,   kDegr}},
-    /* kStp2 */ {{kLock, kLock,   kSafe, kStp1, kStp1,  kStp2, kHold, kStp2,  kStp2, kStp2,  kStp2,   kStp2}},
-    /* kStp1 */ {{kLock, kLock,   kSafe, kStp1, kSafe,  kStp1, kSafe, kStp1,  kStp1, kStp1,  kStp1,   kStp1}},
-    /* kHold */ {{kLock, kLock,   kSafe, kStp1, kHold,  kHold, kHold, kHold,  kStby, kHold,  kHold,   kHold}},
-    /* kSafe */ {{kLock, kLock,   kSafe, kSafe, kSafe,  kSafe, kSafe, kSafe,  kTest, kSafe,  kSafe,   kSafe}},
-    /* kLock */ {{kLock, kLock,   kLock, kLock, kLock,  kLock, kLock, kLock,  kLock, kLock,  kLock,   kLock}},
+    //           Lock   Test   Sto    Ss1    Brakes Time   Ss2    Stands Degr   Reset  Lift   Passed Start
+    /* kTest */ {{kLock, kLock, kSafe, kSafe, kTest, kTest, kSafe, kTest, kTest, kTest, kTest, kStby, kTest}},
+    /* kStby */ {{kLock, kLock, kSafe, kSafe, kStby, kStby, kSafe, kStby, kStby, kStby, kStby, kStby, kOper}},
+    /* kOper */ {{kLock, kLock, kSafe, kStp1, kOper, kOper, kStp2, kOper, kDegr, kOper, kOper, kOper, kOper}},
+    /* kDegr */ {{kLock, kLock, kSafe, kStp1, kDegr, kDegr, kStp2, kDegr, kDegr, kDegr, kOper, kDegr, kDegr}},
+    /* kStp2 */ {{kLock, kLock, kSafe, kStp1, kStp2, kStp1, kStp2, kHold, kStp2, kStp2, kStp2, kStp2, kStp2}},
+    /* kStp1 */ {{kLock, kLock, kSafe, kStp1, kLHld, kSafe, kStp1, kSafe, kStp1, kStp1, kStp1, kStp1, kStp1}},
+    /* kHold */ {{kLock, kLock, kSafe, kStp1, kHold, kHold, kHold, kHold, kHold, kStby, kHold, kHold, kHold}},
+    /* kSafe */ {{kLock, kLock, kSafe, kSafe, kSafe, kSafe, kSafe, kSafe, kSafe, kTest, kSafe, kSafe, kSafe}},
+    /* kLock */ {{kLock, kLock, kLock, kLock, kLock, kLock, kLock, kLock, kLock, kLock, kLock, kLock, kLock}},
+    /* kLHld */ {{kLock, kLock, kLock, kLHld, kLHld, kLHld, kLHld, kLHld, kLHld, kLHld, kLHld, kLHld, kLHld}},
     }};
     // clang-format on
 }
@@ -115,7 +120,7 @@ constexpr bool is_complete(const SafeStateTable& table) noexcept {
 }
 
 static_assert(is_complete(kSafeStateTable), "every state needs an answer to every event");
-static_assert(static_cast<std::size_t>(SafeState::kLockedOut) == kSafeStateCount);
+static_assert(static_cast<std::size_t>(SafeState::kLockedHold) == kSafeStateCount);
 static_assert(static_cast<std::size_t>(SafeStateEvent::kStart) + 1U == kSafeStateEventCount);
 
 }  // namespace detail

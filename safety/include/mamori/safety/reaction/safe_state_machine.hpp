@@ -30,11 +30,13 @@ struct SafeStateInputs {
     Instant now{};
     Reaction demand{Reaction::kSto};  ///< worst reaction of the latched faults; a level
     SelfTestStatus self_test{SelfTestStatus::kRunning};
-    bool start_button{false};     ///< level; the machine finds the edge
-    bool reset_button{false};     ///< level; the machine finds the edge
-    bool standstill{false};       ///< the machine stands, as measured
-    bool faults_cleared{false};   ///< no fault is latched
-    bool lock_out{false};         ///< a stop proved useless, for example torque that cannot be switched off
+    bool start_button{false};    ///< level; the machine finds the edge
+    bool reset_button{false};    ///< level; the machine finds the edge
+    bool standstill{false};      ///< the machine stands, as measured
+    bool faults_cleared{false};  ///< no fault is latched
+    bool lock_out{false};        ///< a stop proved useless, for example torque that cannot be switched off
+    bool brakes_failed{
+        false};  ///< in an SS1: the machine stands, its brakes do not close, torque can hold it
     bool start_permitted{false};  ///< the start is bumpless: the setpoint equals the measured position
 };
 

@@ -7,6 +7,7 @@
 #define MAMORI_SAFETY_STOP_OUTPUTS_HPP
 
 #include <array>
+#include <cstddef>
 
 #include "mamori/safety/reaction/safe_state.hpp"
 
@@ -37,6 +38,7 @@ inline constexpr std::array<StopOutputs, kSafeStateCount> kStopOutputs{{
     {true, true, true, true},      // kStandstillHold
     {false, false, false, false},  // kSafe
     {false, false, false, false},  // kLockedOut
+    {true, false, true, true},     // kLockedHold
 }};
 
 /// @return the commands of `state`; torque off and brakes closed for a corrupted one.
@@ -46,10 +48,12 @@ constexpr StopOutputs calc_stop_outputs(SafeState state) noexcept {
 
 namespace detail {
 
-/// An open brake without torque lets the arm fall, torque against a closed brake wears it.
+/// An open brake without torque lets the arm fall, torque against a closed brake wears it. Brakes that failed
+/// are still told to close.
 constexpr bool do_torque_and_brakes_agree(const std::array<StopOutputs, kSafeStateCount>& outputs) noexcept {
-    for (const StopOutputs& row : outputs) {
-        if (row.torque_enable != row.brake_release) {
+    for (std::size_t i = 0U; i < outputs.size(); ++i) {
+        const bool have_brakes_failed = static_cast<SafeState>(i + 1U) == SafeState::kLockedHold;
+        if (outputs[i].torque_enable != (outputs[i].brake_release || have_brakes_failed)) {
             return false;
         }
     }
@@ -66,7 +70,8 @@ constexpr bool is_hold_a_stop(const std::array<StopOutputs, kSafeStateCount>& ou
     return true;
 }
 
-static_assert(do_torque_and_brakes_agree(kStopOutputs), "brakes are open exactly while torque is on");
+static_assert(do_torque_and_brakes_agree(kStopOutputs),
+              "brakes are open exactly while torque is on and they have not failed");
 static_assert(is_hold_a_stop(kStopOutputs), "a hold is a stop that lasts");
 
 }  // namespace detail

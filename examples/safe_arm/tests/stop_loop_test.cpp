@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: a stop is a ramp from the measured speed to rest, and a hold stays at its place. Method: an arm of
+// known inertia that follows the torque, and arms that do not.
+#include "stop_loop.hpp"
+
+#include <cmath>
+
+#include "mamori/trace/verifies.hpp"
+
+namespace safe_arm {
+namespace {
+
+using namespace mamori::verification;
+
+constexpr double kInertia = 4.0;
+constexpr double kRampS = 0.15;
+
+TEST(StopLoopTest, AMovingArmIsBroughtToRestOnItsRamp) {
+    verifies("SWR-SAF-025");
+    StopLoop sut;
+    JointState state{};
+    state.velocity_rad_s.fill(0.0);
+    state.velocity_rad_s[1] = 0.5;
+    double before = 0.5;
+    for (int frame = 0; frame < 500; ++frame) {
+        const double torque_nm = sut.step(state, {})[1];
+        state.velocity_rad_s[1] += torque_nm / kInertia * kFrameS;
+        state.position_rad[1] += state.velocity_rad_s[1] * kFrameS;
+        ASSERT_LT(std::fabs(state.position_rad[1] - sut.get_setpoint()[1]), 0.5 * kStopDeviationRad) << frame;
+        ASSERT_LT(state.velocity_rad_s[1], before + 0.02) << frame;
+        before = 0.5;
+    }
+    EXPECT_NEAR(sut.get_setpoint()[1], 0.5 * 0.5 * kRampS, 1e-3) << "uniform deceleration over 0.15 s";
+    EXPECT_NEAR(state.velocity_rad_s[1], 0.0, 1e-3);
+    EXPECT_EQ(sut.get_setpoint()[0], 0.0);
+}
+
+TEST(StopLoopTest, AHoldKeepsTheTorqueBeforeItAndPushesBack) {
+    verifies("SWR-SAF-025", Technique::kEquivalenceClasses);
+    StopLoop sut;
+    JointState state{};
+    state.position_rad[3] = 1.0;
+    JointVector last_nm{};
+    last_nm[3] = 20.0;
+    EXPECT_EQ(sut.step(state, last_nm)[3], 20.0);
+    state.position_rad[3] = 1.001;
+    EXPECT_NEAR(sut.step(state, {})[3], 20.0 - 0.001 * kStopStiffness[3], 1e-9);
+    state.velocity_rad_s[3] = 0.1;
+    EXPECT_NEAR(sut.step(state, {})[3], 20.0 - 0.001 * kStopStiffness[3] - 0.1 * kStopDamping[3], 1e-9);
+}
+
+TEST(StopLoopTest, AReleaseEndsTheHold) {
+    verifies("SWR-SAF-025", Technique::kStateTransition);
+    StopLoop sut;
+    JointState state{};
+    static_cast<void>(sut.step(state, {}));
+    sut.release();
+    state.position_rad[0] = 2.0;
+    EXPECT_EQ(sut.step(state, {}), JointVector{}) << "a new place, and no torque before it";
+    EXPECT_EQ(sut.get_setpoint()[0], 2.0);
+}
+
+}  // namespace
+}  // namespace safe_arm

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: brakes that do not close in time are a fault, and torque holds a machine that stands and can be held;
+// nothing else keeps torque. Method: stops whose contacts stay silent, on both sides of each bound.
+#include "safety_cycle_fixture.hpp"
+
+namespace mamori::safety::testing_of_cycle {
+namespace {
+
+class FailedBrakesTest : public SafetyCycleTest {
+  protected:
+    /// In an SS1; the contacts stay silent. The machine stands from now on when `is_standing`.
+    void stop(bool is_standing, bool can_hold) {
+        operate();
+        is_contact_silent_ = true;
+        sut_.inputs.can_hold = can_hold;
+        set_present(Fault::kSlip, true);
+        for (int i = 0; i < 3 && sut_.get_state() != SafeState::kProtectiveStopSs1; ++i) {
+            step();
+        }
+        ASSERT_EQ(sut_.get_state(), SafeState::kProtectiveStopSs1);
+        sut_.inputs.is_standing = is_standing;
+    }
+    SafeState step_for(int frames) {
+        for (int i = 0; i < frames; ++i) {
+            step();
+        }
+        return sut_.get_state();
+    }
+};
+
+TEST_F(SafetyCycleTest, BrakesThatConfirmTheirClosingInTimeAreNoFault) {
+    verifies("SWR-CYC-004", Technique::kBoundaryValues);
+    sut_.inputs.are_brakes_closed = false;
+    is_obeying_ = false;
+    for (int i = 0; i <= 10; ++i) {
+        step();
+    }
+    sut_.inputs.are_brakes_closed = true;
+    step();
+    step();
+    EXPECT_FALSE(is_latched(Fault::kBrake));
+}
+
+TEST_F(SafetyCycleTest, BrakesThatDoNotConfirmTheirClosingInTimeAreAFault) {
+    verifies("SWR-CYC-004", Technique::kFaultInjection, Polarity::kViolation);
+    sut_.inputs.are_brakes_closed = false;
+    is_obeying_ = false;
+    for (int i = 0; i <= 10; ++i) {
+        step();
+        ASSERT_FALSE(is_latched(Fault::kBrake)) << i;
+    }
+    step();
+    EXPECT_TRUE(is_latched(Fault::kBrake)) << "told at 0 ms, due at 10 ms";
+}
+
+TEST_F(FailedBrakesTest, AMachineThatCanBeHeldKeepsItsTorqueAndStaysLocked) {
+    verifies("SWR-CYC-008");
+    ASSERT_NO_FATAL_FAILURE(stop(true, true));
+
+    EXPECT_EQ(step_for(11), SafeState::kProtectiveStopSs1) << "told in the first frame, due 10 ms later";
+    EXPECT_EQ(step(), SafeState::kLockedHold);
+    EXPECT_TRUE(sut_.outputs.torque_enable && sut_.outputs.hold_requested && !sut_.outputs.brake_release);
+    set_present(Fault::kSlip, false);
+    step_for(20);
+    sut_.inputs.reset_button = true;
+    EXPECT_EQ(step_for(5), SafeState::kLockedHold) << "no reset ends it";
+    set_present(Fault::kFast, true);
+    EXPECT_EQ(step(), SafeState::kLockedOut) << "STO";
+    EXPECT_FALSE(sut_.outputs.torque_enable);
+}
+
+TEST_F(FailedBrakesTest, AMachineThatStopsLateIsHeldAtTheBoundOfItsStop) {
+    verifies("SWR-CYC-008", Technique::kBoundaryValues);
+    ASSERT_NO_FATAL_FAILURE(stop(false, true));
+    step_for(14);
+    sut_.inputs.is_standing = true;
+
+    EXPECT_EQ(step_for(5), SafeState::kProtectiveStopSs1);
+    EXPECT_EQ(step(), SafeState::kLockedHold) << "at 20 ms, the brakes have had only 5 ms";
+}
+
+TEST_F(FailedBrakesTest, AMachineThatCannotBeHeldOrMovesLosesItsTorqueAtTheBound) {
+    verifies("SWR-CYC-008", Technique::kEquivalenceClasses, Polarity::kViolation);
+    for (const bool can_hold : {false, true}) {
+        const bool is_standing = !can_hold;
+        SafetyStorage<kSystem> storage;
+        SafetyState state{storage, watchdog_, nullptr};
+        FakeMachine machine{state, nullptr};
+        ASSERT_EQ(machine.initialize(), Status::kOk);
+        Instant now{};
+        const auto run = [&](int frames) {
+            for (int i = 0; i < frames; ++i) {
+                for (std::size_t c = 0U; c < 3U; ++c) {
+                    state.get_observer().get_records()[c].note_run(now, now + 10_us);
+                }
+                EXPECT_EQ(machine.on_execute({0, now}), Status::kOk);
+                machine.inputs.applied = machine.outputs;
+                machine.inputs.has_torque = machine.outputs.torque_enable;
+                now = now + kFrame;
+            }
+        };
+        machine.inputs.is_standing = true;
+        machine.inputs.are_brakes_closed = true;
+        machine.inputs.may_start = true;
+        run(4);
+        machine.inputs.start_button = true;
+        run(1);
+        ASSERT_EQ(machine.get_state(), SafeState::kOperational);
+        machine.inputs.are_brakes_closed = false;
+        machine.inputs.is_standing = is_standing;
+        machine.inputs.can_hold = can_hold;
+        machine.present[static_cast<std::size_t>(Fault::kSlip)] = true;
+        run(3);
+        ASSERT_EQ(machine.get_state(), SafeState::kProtectiveStopSs1);
+
+        run(19);
+        EXPECT_EQ(machine.get_state(), SafeState::kProtectiveStopSs1) << can_hold;
+        run(1);
+        EXPECT_EQ(machine.get_state(), SafeState::kSafe) << can_hold;
+    }
+}
+
+TEST_F(FailedBrakesTest, BrakesThatCloseLetTheStopEndWithoutTorque) {
+    verifies("SWR-CYC-008", Technique::kEquivalenceClasses, Polarity::kViolation);
+    ASSERT_NO_FATAL_FAILURE(stop(true, true));
+    step_for(5);
+    is_contact_silent_ = false;
+
+    step_for(2);
+    EXPECT_EQ(sut_.get_state(), SafeState::kSafe);
+    EXPECT_FALSE(sut_.outputs.torque_enable);
+}
+
+TEST_F(FailedBrakesTest, TheSelfTestGetsTorqueAgainstClosedBrakesAndNothingElseDoes) {
+    verifies("SWR-CYC-009", Technique::kStateTransition);
+    sut_.self_test = SelfTestStatus::kRunning;
+    sut_.is_testing_torque = true;
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_EQ(step(), SafeState::kSelfTest);
+        ASSERT_TRUE(sut_.outputs.torque_enable && !sut_.outputs.brake_release) << i;
+    }
+    sut_.is_testing_torque = false;
+    step();
+    EXPECT_FALSE(sut_.outputs.torque_enable);
+}
+
+TEST_F(FailedBrakesTest, ATestThatAsksForTorqueElsewhereGetsNone) {
+    verifies("SWR-CYC-009", Technique::kStateTransition, Polarity::kViolation);
+    sut_.is_testing_torque = true;
+    step();
+    ASSERT_EQ(step(), SafeState::kStandby);
+    EXPECT_FALSE(sut_.outputs.torque_enable);
+    set_present(Fault::kFast, true);
+    ASSERT_EQ(step(), SafeState::kSafe);
+    EXPECT_FALSE(sut_.outputs.torque_enable);
+}
+
+TEST_F(FailedBrakesTest, AFaultInTheSelfTestEndsItsTorque) {
+    verifies("SWR-CYC-009", Technique::kFaultInjection, Polarity::kViolation);
+    sut_.self_test = SelfTestStatus::kRunning;
+    sut_.is_testing_torque = true;
+    step_for(3);
+    set_present(Fault::kFast, true);
+
+    EXPECT_EQ(step(), SafeState::kSafe);
+    EXPECT_FALSE(sut_.outputs.torque_enable);
+}
+
+}  // namespace
+}  // namespace mamori::safety::testing_of_cycle
