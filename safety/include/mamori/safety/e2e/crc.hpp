@@ -136,7 +136,7 @@ class Crc final {
         }
     }
     /// @param[in] bytes any number.
-    constexpr void add(Span<const std::byte> bytes) noexcept {
+    [[gnu::always_inline]] constexpr void add(Span<const std::byte> bytes) noexcept {
         const std::byte* const data = bytes.data();
         std::size_t done = 0U;
         if constexpr (kSlices != 0U) {
@@ -146,9 +146,13 @@ class Crc final {
             }
             done = blocks * kSlices;
         }
-        for (std::size_t i = done; i < bytes.size(); ++i) {
-            add(data[i]);
+        if constexpr (kSlices == 8U) {
+            if (bytes.size() - done >= kHalf) {
+                register_ = step(register_, data + done, std::make_index_sequence<kHalf>{});
+                done += kHalf;
+            }
         }
+        add_each(data + done, bytes.size() - done);
     }
     /// @param[in] count how many bytes like `byte`.
     constexpr void add_repeated(std::byte byte, std::size_t count) noexcept {
@@ -159,6 +163,11 @@ class Crc final {
     constexpr Word get_value() const noexcept { return static_cast<Word>(register_ ^ kCrc.final_xor); }
 
   private:
+    constexpr void add_each(const std::byte* data, std::size_t size) noexcept {
+        for (std::size_t i = 0U; i < size; ++i) {
+            add(data[i]);
+        }
+    }
     /// @param[in] bits four, and any bits above them.
     constexpr void add_half_byte(unsigned bits) noexcept {
         constexpr unsigned kTop = std::numeric_limits<Word>::digits - 4U;
@@ -176,6 +185,7 @@ class Crc final {
 
     static constexpr const auto& kTables = detail::kCrcTables<kCrc, kSlices>;
     static constexpr std::size_t kBytes = sizeof(Word);
+    static constexpr std::size_t kHalf = (kSlices + 1U) / 2U;
     /// Where the byte `kPlace` of the register lies in it, the one that meets the next byte first.
     template <std::size_t kPlace>
     static constexpr std::size_t kShift = 8U * (kCrc.is_reflected ? kPlace : kBytes - 1U - kPlace);
@@ -210,10 +220,11 @@ class Crc final {
     template <std::size_t... kPlace>
     static constexpr Word step(Word value, const std::byte* block,
                                std::index_sequence<kPlace...> /*block*/) noexcept {
-        constexpr std::size_t kLead = kSlices < kBytes ? kSlices : kBytes;
+        constexpr std::size_t kCount = sizeof...(kPlace);
+        constexpr std::size_t kLead = kCount < kBytes ? kCount : kBytes;
         const auto lead = static_cast<Word>(value ^ load(block, std::make_index_sequence<kLead>{}));
         return static_cast<Word>(
-            (shift<kSlices>(value) ^ ... ^ kTables[kSlices - 1U - kPlace][get_index<kPlace>(lead, block)]));
+            (shift<kCount>(value) ^ ... ^ kTables[kCount - 1U - kPlace][get_index<kPlace>(lead, block)]));
     }
 
     Word register_;

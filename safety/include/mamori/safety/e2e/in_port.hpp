@@ -64,7 +64,7 @@ class E2eInPort final {
     using Value = typename Message::Value;
     using Profile = typename Message::Profile;
     using Order = typename std::remove_reference_t<decltype(kLimits)>::Sequence;
-    using Checker = E2eChecker<Profile, Order>;
+    using Checker = E2eChecker<Profile, Order, ConstantChannel<Message::kChannel>>;
 
     static_assert(ChannelIsSound<Order::find_fault(kLimits.order, Profile::kCounterMax)>::value);
     static_assert(are_sound(kLimits.demands, kLimits.window), "demands on the channel's window are unsound");
@@ -192,7 +192,7 @@ class E2eInPort final {
     }
 
     detail::FrameSource<Port> source_;
-    Checker checker_{Message::kChannel, kLimits.order};
+    Checker checker_{{}, kLimits.order};
     std::array<ProfileStatus, kLimits.window> window_{};
     ChannelStateMachine machine_{window_, kLimits.demands};
     Value substitute_;

@@ -93,7 +93,8 @@ class SentIdProfile final {
     static constexpr Word calc_checksum(const Channel& channel, Span<const std::byte> frame) noexcept {
         const std::size_t end = channel.offset + kCrcEnd;
         Checksum crc;
-        crc.add({frame.data(), channel.offset + Layout::kCrcAt});
+        crc.add({frame.data(), channel.offset});
+        crc.add({frame.data() + channel.offset, Layout::kCrcAt});
         crc.add({frame.data() + end, frame.size() - end});
         return crc.get_value();
     }
