@@ -40,6 +40,10 @@ class SentIdProfile final {
     using Checksum = Crc<Layout::kCrc, kSlices>;
     using Word = typename Checksum::Word;
     static constexpr std::size_t kCrcEnd = Layout::kCrcAt + sizeof(Word);
+    /// Length and counter together.
+    using Order = typename Layout::Order;
+    static constexpr int kCounterBits = std::numeric_limits<Counter>::digits;
+    static_assert(Layout::kCounterAt == Layout::kLengthAt + sizeof(Length));
 
   public:
     using Channel = SentIdChannel;
@@ -65,8 +69,10 @@ class SentIdProfile final {
     static constexpr void write(const Channel& channel, std::uint32_t counter,
                                 Span<std::byte> frame) noexcept {
         std::byte* const header = frame.data() + channel.offset;
-        detail::store_big(header + Layout::kLengthAt, static_cast<Length>(frame.size()));
-        detail::store_big(header + Layout::kCounterAt, static_cast<Counter>(counter));
+        // One store of both: the checksum reads them at once, and a processor waits for two.
+        detail::store_big(header + Layout::kLengthAt,
+                          static_cast<Order>(Order{static_cast<Length>(frame.size())} << kCounterBits |
+                                             static_cast<Counter>(counter)));
         detail::store_big(header + Layout::kIdAt, channel.data_id);
         detail::store_big(header + Layout::kCrcAt, calc_checksum(channel, {frame.data(), frame.size()}));
     }
@@ -106,6 +112,7 @@ namespace detail {
 struct Header04 {
     using Length = std::uint16_t;
     using Counter = std::uint16_t;
+    using Order = std::uint32_t;
     static constexpr const auto& kCrc = kCrc32P4;
     static constexpr std::size_t kLengthAt = 0U;
     static constexpr std::size_t kCounterAt = 2U;
@@ -128,6 +135,7 @@ struct Layout44 : Header04 {
 struct Header07 {
     using Length = std::uint32_t;
     using Counter = std::uint32_t;
+    using Order = std::uint64_t;
     static constexpr std::size_t kCrcAt = 0U;
     static constexpr std::size_t kLengthMax = 4194304U;
 };
