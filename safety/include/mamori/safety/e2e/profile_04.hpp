@@ -66,23 +66,27 @@ class SentIdProfile final {
     }
 
     /// Writes the header. @pre the channel has no fault and takes the length.
-    static constexpr void write(const Channel& channel, std::uint32_t counter,
+    template <typename Source>
+    static constexpr void write(const Source& source, std::uint32_t counter,
                                 Span<std::byte> frame) noexcept {
+        const Channel& channel = source;
         std::byte* const header = frame.data() + channel.offset;
         // One store of both: the checksum reads them at once, and a processor waits for two.
         detail::store_big(header + Layout::kLengthAt,
                           static_cast<Order>(Order{static_cast<Length>(frame.size())} << kCounterBits |
                                              static_cast<Counter>(counter)));
         detail::store_big(header + Layout::kIdAt, channel.data_id);
-        detail::store_big(header + Layout::kCrcAt, calc_checksum(channel, {frame.data(), frame.size()}));
+        detail::store_big(header + Layout::kCrcAt, calc_checksum(source, {frame.data(), frame.size()}));
     }
 
     /// Reads the header. @pre the channel has no fault and takes the length.
     /// @param[out] counter written for kGood only. @return kGood, kChecksum, kDataId or kLengthField.
-    static constexpr FrameCause read(const Channel& channel, Span<const std::byte> frame,
+    template <typename Source>
+    static constexpr FrameCause read(const Source& source, Span<const std::byte> frame,
                                      std::uint32_t& counter) noexcept {
+        const Channel& channel = source;
         const std::byte* const header = frame.data() + channel.offset;
-        if (detail::load_big<Word>(header + Layout::kCrcAt) != calc_checksum(channel, frame)) {
+        if (detail::load_big<Word>(header + Layout::kCrcAt) != calc_checksum(source, frame)) {
             return FrameCause::kChecksum;
         }
         if (detail::load_big<std::uint32_t>(header + Layout::kIdAt) != channel.data_id) {
@@ -96,7 +100,9 @@ class SentIdProfile final {
     }
 
   private:
-    static constexpr Word calc_checksum(const Channel& channel, Span<const std::byte> frame) noexcept {
+    template <typename Source>
+    static constexpr Word calc_checksum(const Source& source, Span<const std::byte> frame) noexcept {
+        const Channel& channel = source;
         const std::size_t end = channel.offset + kCrcEnd;
         Checksum crc;
         crc.add({frame.data(), channel.offset});
