@@ -10,6 +10,7 @@
 #ifndef MAMORI_SAFETY_E2E_PROFILE_04_HPP
 #define MAMORI_SAFETY_E2E_PROFILE_04_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -39,11 +40,6 @@ class SentIdProfile final {
     using Length = typename Layout::Length;
     using Checksum = Crc<Layout::kCrc, kSlices>;
     using Word = typename Checksum::Word;
-    static constexpr std::size_t kCrcEnd = Layout::kCrcAt + sizeof(Word);
-    /// Length and counter together.
-    using Order = typename Layout::Order;
-    static constexpr int kCounterBits = std::numeric_limits<Counter>::digits;
-    static_assert(Layout::kCounterAt == Layout::kLengthAt + sizeof(Length));
 
   public:
     using Channel = SentIdChannel;
@@ -71,12 +67,12 @@ class SentIdProfile final {
                                 Span<std::byte> frame) noexcept {
         const Channel& channel = source;
         std::byte* const header = frame.data() + channel.offset;
-        // One store of both: the checksum reads them at once, and a processor waits for two.
-        detail::store_big(header + Layout::kLengthAt,
-                          static_cast<Order>(Order{static_cast<Length>(frame.size())} << kCounterBits |
-                                             static_cast<Counter>(counter)));
+        const std::uint64_t first =
+            Layout::join(static_cast<Length>(frame.size()), static_cast<Counter>(counter), channel.data_id);
+        detail::store_big(header + Layout::kLengthAt, first);
         detail::store_big(header + Layout::kIdAt, channel.data_id);
-        detail::store_big(header + Layout::kCrcAt, calc_checksum(source, {frame.data(), frame.size()}));
+        detail::store_big(header + Layout::kCrcAt,
+                          calc_checksum(source, {frame.data(), frame.size()}, first));
     }
 
     /// Reads the header. @pre the channel has no fault and takes the length.
@@ -86,7 +82,8 @@ class SentIdProfile final {
                                      std::uint32_t& counter) noexcept {
         const Channel& channel = source;
         const std::byte* const header = frame.data() + channel.offset;
-        if (detail::load_big<Word>(header + Layout::kCrcAt) != calc_checksum(source, frame)) {
+        const auto first = detail::load_big<std::uint64_t>(header + Layout::kLengthAt);
+        if (detail::load_big<Word>(header + Layout::kCrcAt) != calc_checksum(source, frame, first)) {
             return FrameCause::kChecksum;
         }
         if (detail::load_big<std::uint32_t>(header + Layout::kIdAt) != channel.data_id) {
@@ -100,14 +97,18 @@ class SentIdProfile final {
     }
 
   private:
+    /// @param[in] first the first fields: to read them from the message, a processor waits for their stores.
     template <typename Source>
-    static constexpr Word calc_checksum(const Source& source, Span<const std::byte> frame) noexcept {
+    static constexpr Word calc_checksum(const Source& source, Span<const std::byte> frame,
+                                        std::uint64_t first) noexcept {
         const Channel& channel = source;
-        const std::size_t end = channel.offset + kCrcEnd;
+        const std::size_t rest = channel.offset + Layout::kRestAt;
+        std::array<std::byte, sizeof(first)> first_bytes{};
+        detail::store_big(first_bytes.data(), first);
         Checksum crc;
         crc.add({frame.data(), channel.offset});
-        crc.add({frame.data() + channel.offset, Layout::kCrcAt});
-        crc.add({frame.data() + end, frame.size() - end});
+        crc.add(first_bytes);
+        crc.add({frame.data() + rest, frame.size() - rest});
         return crc.get_value();
     }
 };
@@ -118,13 +119,17 @@ namespace detail {
 struct Header04 {
     using Length = std::uint16_t;
     using Counter = std::uint16_t;
-    using Order = std::uint32_t;
     static constexpr const auto& kCrc = kCrc32P4;
     static constexpr std::size_t kLengthAt = 0U;
     static constexpr std::size_t kCounterAt = 2U;
     static constexpr std::size_t kIdAt = 4U;
     static constexpr std::size_t kCrcAt = 8U;
+    static constexpr std::size_t kRestAt = 12U;  ///< where the checksum goes on after the first fields
     static constexpr std::size_t kHeaderSize = 12U;
+
+    static constexpr std::uint64_t join(Length length, Counter counter, std::uint32_t data_id) noexcept {
+        return std::uint64_t{length} << 48U | std::uint64_t{counter} << 32U | data_id;
+    }
 };
 
 struct Layout04 : Header04 {
@@ -141,9 +146,12 @@ struct Layout44 : Header04 {
 struct Header07 {
     using Length = std::uint32_t;
     using Counter = std::uint32_t;
-    using Order = std::uint64_t;
     static constexpr std::size_t kCrcAt = 0U;
     static constexpr std::size_t kLengthMax = 4194304U;
+
+    static constexpr std::uint64_t join(Length length, Counter counter, std::uint32_t /*data_id*/) noexcept {
+        return std::uint64_t{length} << 32U | counter;
+    }
 };
 
 struct Layout07 : Header07 {
@@ -152,6 +160,7 @@ struct Layout07 : Header07 {
     static constexpr std::size_t kLengthAt = 8U;
     static constexpr std::size_t kCounterAt = 12U;
     static constexpr std::size_t kIdAt = 16U;
+    static constexpr std::size_t kRestAt = 16U;
     static constexpr std::size_t kHeaderSize = 20U;
 };
 
@@ -161,6 +170,7 @@ struct Layout08 : Header07 {
     static constexpr std::size_t kLengthAt = 4U;
     static constexpr std::size_t kCounterAt = 8U;
     static constexpr std::size_t kIdAt = 12U;
+    static constexpr std::size_t kRestAt = 12U;
     static constexpr std::size_t kHeaderSize = 16U;
 };
 
