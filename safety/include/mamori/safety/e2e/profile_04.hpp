@@ -67,10 +67,12 @@ class SentIdProfile final {
                                 Span<std::byte> frame) noexcept {
         const Channel& channel = source;
         std::byte* const header = frame.data() + channel.offset;
-        const std::uint64_t first =
-            Layout::join(static_cast<Length>(frame.size()), static_cast<Counter>(counter), channel.data_id);
-        detail::store_big(header + Layout::kLengthAt, first);
+        const auto length = static_cast<Length>(frame.size());
+        const auto sent_counter = static_cast<Counter>(counter);
+        detail::store_big(header + Layout::kLengthAt, length);
+        detail::store_big(header + Layout::kCounterAt, sent_counter);
         detail::store_big(header + Layout::kIdAt, channel.data_id);
+        const std::uint64_t first = Layout::join(length, sent_counter, channel.data_id);
         detail::store_big(header + Layout::kCrcAt,
                           calc_checksum(source, {frame.data(), frame.size()}, first));
     }
@@ -97,6 +99,12 @@ class SentIdProfile final {
     }
 
   private:
+    /// Apart from the rest, so that channels without an offset do without its registers.
+    [[gnu::noinline]] static constexpr Checksum calc_checksum_before(Span<const std::byte> bytes) noexcept {
+        Checksum crc;
+        crc.add(bytes);
+        return crc;
+    }
     /// @param[in] first the first fields: to read them from the message, a processor waits for their stores.
     template <typename Source>
     static constexpr Word calc_checksum(const Source& source, Span<const std::byte> frame,
@@ -106,7 +114,9 @@ class SentIdProfile final {
         std::array<std::byte, sizeof(first)> first_bytes{};
         detail::store_big(first_bytes.data(), first);
         Checksum crc;
-        crc.add({frame.data(), channel.offset});
+        if (channel.offset > 0U) {
+            crc = calc_checksum_before({frame.data(), channel.offset});
+        }
         crc.add(first_bytes);
         crc.add({frame.data() + rest, frame.size() - rest});
         return crc.get_value();
