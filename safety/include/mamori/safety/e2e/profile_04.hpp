@@ -74,7 +74,7 @@ class SentIdProfile final {
         detail::store_big(header + Layout::kIdAt, channel.data_id);
         const std::uint64_t first = Layout::join(length, sent_counter, channel.data_id);
         detail::store_big(header + Layout::kCrcAt,
-                          calc_checksum(source, {frame.data(), frame.size()}, first));
+                          calc_checksum(channel, {frame.data(), frame.size()}, first));
     }
 
     /// Reads the header. @pre the channel has no fault and takes the length.
@@ -85,7 +85,7 @@ class SentIdProfile final {
         const Channel& channel = source;
         const std::byte* const header = frame.data() + channel.offset;
         const auto first = detail::load_big<std::uint64_t>(header + Layout::kLengthAt);
-        if (detail::load_big<Word>(header + Layout::kCrcAt) != calc_checksum(source, frame, first)) {
+        if (detail::load_big<Word>(header + Layout::kCrcAt) != calc_checksum(channel, frame, first)) {
             return FrameCause::kChecksum;
         }
         if (detail::load_big<std::uint32_t>(header + Layout::kIdAt) != channel.data_id) {
@@ -99,26 +99,26 @@ class SentIdProfile final {
     }
 
   private:
-    /// Apart from the rest, so that channels without an offset do without its registers.
-    [[gnu::noinline]] static constexpr Checksum calc_checksum_before(Span<const std::byte> bytes) noexcept {
+    /// @param[in] first the first fields: to read them from the message, a processor waits for their stores.
+    [[gnu::always_inline]] static constexpr Word calc_checksum(const Channel& channel,
+                                                               Span<const std::byte> frame,
+                                                               std::uint64_t first) noexcept {
+        const std::size_t rest = channel.offset + Layout::kRestAt;
+        const Checksum before =
+            channel.offset > 0U ? start_checksum({frame.data(), channel.offset}) : Checksum{};
+        return finish_checksum(before, first, {frame.data() + rest, frame.size() - rest});
+    }
+    [[gnu::noinline]] static constexpr Checksum start_checksum(Span<const std::byte> before) noexcept {
         Checksum crc;
-        crc.add(bytes);
+        crc.add(before);
         return crc;
     }
-    /// @param[in] first the first fields: to read them from the message, a processor waits for their stores.
-    template <typename Source>
-    static constexpr Word calc_checksum(const Source& source, Span<const std::byte> frame,
-                                        std::uint64_t first) noexcept {
-        const Channel& channel = source;
-        const std::size_t rest = channel.offset + Layout::kRestAt;
+    static constexpr Word finish_checksum(Checksum crc, std::uint64_t first,
+                                          Span<const std::byte> rest) noexcept {
         std::array<std::byte, sizeof(first)> first_bytes{};
         detail::store_big(first_bytes.data(), first);
-        Checksum crc;
-        if (channel.offset > 0U) {
-            crc = calc_checksum_before({frame.data(), channel.offset});
-        }
         crc.add(first_bytes);
-        crc.add({frame.data() + rest, frame.size() - rest});
+        crc.add(rest);
         return crc.get_value();
     }
 };
