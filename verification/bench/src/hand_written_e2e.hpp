@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The lower bound of a protected exchange: both ends of a message of profile 4, HARDENED, written by hand for
-/// one size, one sender and one receiver. It does what E2eOutPort, OutPort, InPort and E2eInPort do together,
-/// with the limits of e2e_rig.hpp as constants. Only the checksum and the enumerations are those of Mamori.
-/// hand_written_e2e_test.cpp compares both receivers on disturbed messages.
+/// The lower bound of a protected exchange: both ends of a message of profile 4, HARDENED, written by hand
+/// for one size, one sender and one receiver. It does what E2eOutPort, OutPort, InPort and E2eInPort do
+/// together, with the limits of e2e_rig.hpp as constants. Only the checksum and the enumerations are those of
+/// Mamori. hand_written_e2e_test.cpp compares both receivers on disturbed messages.
 ///
 /// @satisfies SWR-BEN-010      Design: docs/design/bench.md#method
 #ifndef MAMORI_VERIFICATION_BENCH_HAND_WRITTEN_E2E_HPP

@@ -65,7 +65,9 @@ struct ChannelIsSound : std::true_type {
 /// @tparam kChannel constexpr channel of a profile, of static storage duration.
 template <const auto& kChannel>
 struct ConstantChannel {
-    constexpr operator decltype(kChannel)() const noexcept { return kChannel; }  // NOLINT: implicit on purpose
+    constexpr operator decltype(kChannel)() const noexcept {
+        return kChannel;
+    }  // NOLINT: implicit on purpose
 };
 
 /// Proves a channel where a table is made: static_assert(is_sound<E2eProfile04<>, kChannel>());

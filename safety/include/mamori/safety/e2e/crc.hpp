@@ -145,11 +145,11 @@ class Crc final {
                 register_ = step(register_, data + block * kSlices, std::make_index_sequence<kSlices>{});
             }
             done = blocks * kSlices;
-        }
-        if constexpr (kSlices == 8U) {
-            if (bytes.size() - done >= kHalf) {
-                register_ = step(register_, data + done, std::make_index_sequence<kHalf>{});
-                done += kHalf;
+            // Half a block is the rest of most messages: their fields have four bytes.
+            using Half = std::make_index_sequence<(kSlices + 1U) / 2U>;
+            if (bytes.size() - done >= Half::size()) {
+                register_ = step(register_, data + done, Half{});
+                done += Half::size();
             }
         }
         add_each(data + done, bytes.size() - done);
@@ -185,7 +185,6 @@ class Crc final {
 
     static constexpr const auto& kTables = detail::kCrcTables<kCrc, kSlices>;
     static constexpr std::size_t kBytes = sizeof(Word);
-    static constexpr std::size_t kHalf = (kSlices + 1U) / 2U;
     /// Where the byte `kPlace` of the register lies in it, the one that meets the next byte first.
     template <std::size_t kPlace>
     static constexpr std::size_t kShift = 8U * (kCrc.is_reflected ? kPlace : kBytes - 1U - kPlace);

@@ -63,8 +63,7 @@ class SentIdProfile final {
 
     /// Writes the header. @pre the channel has no fault and takes the length.
     template <typename Source>
-    static constexpr void write(const Source& source, std::uint32_t counter,
-                                Span<std::byte> frame) noexcept {
+    static constexpr void write(const Source& source, std::uint32_t counter, Span<std::byte> frame) noexcept {
         const Channel& channel = source;
         std::byte* const header = frame.data() + channel.offset;
         const auto length = static_cast<Length>(frame.size());
@@ -105,7 +104,7 @@ class SentIdProfile final {
                                                                std::uint64_t first) noexcept {
         const std::size_t rest = channel.offset + Layout::kRestAt;
         const Checksum before =
-            channel.offset > 0U ? start_checksum({frame.data(), channel.offset}) : Checksum{};
+            channel.offset != 0U ? start_checksum({frame.data(), channel.offset}) : Checksum{};
         return finish_checksum(before, first, {frame.data() + rest, frame.size() - rest});
     }
     [[gnu::noinline]] static constexpr Checksum start_checksum(Span<const std::byte> before) noexcept {
