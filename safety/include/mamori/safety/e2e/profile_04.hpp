@@ -61,7 +61,8 @@ class SentIdProfile final {
         return detail::judge_length(channel.length_min, channel.length_max, length);
     }
 
-    /// Writes the header. @pre the channel has no fault and takes the length.
+    /// Writes the header. @param[in] source a Channel or a ConstantChannel. @pre the channel has no fault and
+    /// takes the length.
     template <typename Source>
     static constexpr void write(const Source& source, std::uint32_t counter, Span<std::byte> frame) noexcept {
         const Channel& channel = source;
@@ -98,7 +99,8 @@ class SentIdProfile final {
     }
 
   private:
-    /// @param[in] first the first fields: to read them from the message, a processor waits for their stores.
+    /// @param[in] first the first fields as a number: a processor that reads them from the message waits for
+    ///                  the stores.
     [[gnu::always_inline]] static constexpr Word calc_checksum(const Channel& channel,
                                                                Span<const std::byte> frame,
                                                                std::uint64_t first) noexcept {
@@ -107,6 +109,7 @@ class SentIdProfile final {
             channel.offset != 0U ? start_checksum({frame.data(), channel.offset}) : Checksum{};
         return finish_checksum(before, first, {frame.data() + rest, frame.size() - rest});
     }
+    /// A function of its own, because most channels have no bytes before the header.
     [[gnu::noinline]] static constexpr Checksum start_checksum(Span<const std::byte> before) noexcept {
         Checksum crc;
         crc.add(before);
@@ -133,9 +136,10 @@ struct Header04 {
     static constexpr std::size_t kCounterAt = 2U;
     static constexpr std::size_t kIdAt = 4U;
     static constexpr std::size_t kCrcAt = 8U;
-    static constexpr std::size_t kRestAt = 12U;  ///< where the checksum goes on after the first fields
+    static constexpr std::size_t kRestAt = 12U;  ///< where the checksum continues after the first fields
     static constexpr std::size_t kHeaderSize = 12U;
 
+    /// The first eight bytes of the fields, as a number.
     static constexpr std::uint64_t join(Length length, Counter counter, std::uint32_t data_id) noexcept {
         return std::uint64_t{length} << 48U | std::uint64_t{counter} << 32U | data_id;
     }
