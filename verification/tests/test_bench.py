@@ -135,20 +135,23 @@ def judge_protected(subjects: dict[str, list[float]]) -> list[RatioResult]:
 
 
 @pytest.mark.verifies("SWR-BEN-010")
-def test_protected_exchange_is_held_against_a_frame_with_the_same_checksum() -> None:
-    results = judge_protected({"mamori protected port": [6.0] * 5, "CRC-32 frame": [5.0] * 5})
+def test_protected_exchange_is_compared_with_one_that_does_the_same_job_and_with_a_frame_of_the_same_checksum() -> None:
+    results = judge_protected({"mamori protected port": [6.0] * 5, "hand-written exchange": [5.0] * 5, "CRC-32 frame": [4.0] * 5})
 
     assert [(one.id, one.size, one.ratio, one.limit, one.kind, one.verdict) for one in results] == [
         ("P2", 8, 1.2, 1.5, "gate", PASSED),
         ("P2", 64, 1.2, 1.3, "gate", PASSED),
-        ("P2", 1024, 1.2, 1.15, "gate", FAILED),
+        ("P2", 1024, 1.2, 1.1, "gate", FAILED),
+        ("P2", 8, 1.5, 1.5, "advisory", PASSED),
+        ("P2", 64, 1.5, 1.3, "advisory", FAILED),
+        ("P2", 1024, 1.5, 1.15, "advisory", FAILED),
     ]
 
 
 @pytest.mark.verifies("SWR-BEN-010", technique="fault_injection", polarity="violation")
-@pytest.mark.parametrize("left", ["mamori protected port", "CRC-32 frame"])
+@pytest.mark.parametrize("left", ["mamori protected port", "hand-written exchange", "CRC-32 frame"])
 def test_protected_exchange_without_its_floor_fails(left: str) -> None:
-    assert [one.verdict for one in judge_protected({left: [5.0] * 5})] == [FAILED] * 3
+    assert [one.verdict for one in judge_protected({left: [5.0] * 5})] == [FAILED] * 6
 
 
 def judge_fifo(subjects: dict[str, list[float]]) -> list[RatioResult]:

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Lower bounds of the end-to-end protection cases, written by hand around the checksum of Mamori: a message
-/// of profile 4 that is protected and checked in place, without ports, and the two checksums alone.
+/// Lower bounds of the end-to-end protection cases, written by hand around the checksum of Mamori: the whole
+/// exchange; a message of profile 4 that is protected and checked in place, without ports; and the two
+/// checksums alone.
 ///
 /// @satisfies SWR-BEN-010      Design: docs/design/bench.md#method
 #include <cstring>
 
 #include "catalogue.hpp"
+#include "hand_written_e2e.hpp"
 #include "mamori/safety/e2e/crc_catalogue.hpp"
 
 namespace mamori::verification::bench {
@@ -74,6 +76,42 @@ class CrcFrame final : public Subject {
     std::uint16_t last_{0xFFFFU};
 };
 
+/// The same job as the protected port of Mamori.
+template <std::size_t kSize>
+class HandWrittenExchange final : public Subject {
+  public:
+    HandWrittenExchange() noexcept {
+        const Message<kSize> nothing{};
+        for (int i = 0; i < 8; ++i) {
+            exchange(nothing);
+        }
+    }
+
+    std::uint64_t run(std::uint64_t count) override {
+        std::uint64_t sum = 0U;
+        for (std::uint64_t i = 0U; i < count; ++i) {
+            sum += exchange(values_[i])[0];
+        }
+        return sum;
+    }
+
+  private:
+    const Message<kSize>& exchange(const Message<kSize>& value) noexcept {
+        now_ = now_ + Duration{1};
+        sender_.write(value);
+        sender_.publish(now_);
+        touch(sender_);
+        receiver_.take(sender_.get_published(), sender_.get_published_count(), sender_.get_published_at());
+        touch(receiver_);
+        return receiver_.read(now_);
+    }
+
+    WrittenValues<kSize> values_;
+    HandWrittenSender<kSize> sender_;
+    HandWrittenReceiver<kSize> receiver_;
+    Instant now_{};
+};
+
 /// Over the bytes that profile 4 covers.
 template <std::size_t kSize>
 class CrcTwice final : public Subject {
@@ -100,6 +138,7 @@ class CrcTwice final : public Subject {
 }  // namespace
 
 void add_e2e_floors(std::vector<Case>& e2e) {
+    add_to_e2e<HandWrittenExchange>(e2e, "hand-written exchange");
     add_to_e2e<CrcFrame>(e2e, "CRC-32 frame");
     add_to_e2e<CrcTwice>(e2e, "CRC-32 twice");
 }

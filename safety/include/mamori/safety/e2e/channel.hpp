@@ -60,6 +60,16 @@ struct ChannelIsSound : std::true_type {
     static_assert(kFault != ChannelFault::kLimits, "limits of the counter are out of range");
 };
 
+/// A channel that both ends know at compile time: it takes no memory, so nothing can change it, and the
+/// compiler uses its numbers as constants.
+/// @tparam kChannel constexpr channel of a profile, of static storage duration.
+template <const auto& kChannel>
+struct ConstantChannel {
+    constexpr operator decltype(kChannel)() const noexcept {
+        return kChannel;
+    }  // NOLINT: implicit on purpose
+};
+
 /// Proves a channel where a table is made: static_assert(is_sound<E2eProfile04<>, kChannel>());
 /// @tparam kChannel constexpr channel of the profile, of static storage duration.
 /// @return true; every other outcome does not compile.

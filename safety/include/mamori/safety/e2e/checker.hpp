@@ -32,17 +32,19 @@ constexpr FrameCause to_cause(CheckStatus status) noexcept {
 /// @tparam Profile E2eProfile01<> .. E2eProfile44<>.
 /// @tparam Order   Profile::Sequence: CONFORMANT, judges as AUTOSAR does; HardenedSequence: HARDENED, refuses
 /// the past.
+/// @tparam Source  Profile::Channel, kept in the object; a port takes ConstantChannel.
 ///
 /// Thread safety: none; one per receiver. Time: O(length of the frame). Memory: channel, limits, counts; no
 /// heap.
-template <typename Profile, typename Order = typename Profile::Sequence>
+template <typename Profile, typename Order = typename Profile::Sequence,
+          typename Source = typename Profile::Channel>
 class E2eChecker final {
   public:
     using Channel = typename Profile::Channel;
     using Limits = typename Order::Limits;
 
     /// @param[in] channel, limits with a fault they are kept, and refuse every frame.
-    constexpr E2eChecker(const Channel& channel, const Limits& limits) noexcept
+    constexpr E2eChecker(const Source& channel, const Limits& limits) noexcept
         : channel_(channel), order_(limits, Profile::kCounterMax) {
         if (Profile::find_fault(channel) != ChannelFault::kNone ||
             Order::find_fault(limits, Profile::kCounterMax) != ChannelFault::kNone) {
@@ -103,7 +105,7 @@ class E2eChecker final {
         saturating_increment(counts_[static_cast<std::size_t>(cause)]);
     }
 
-    Channel channel_;
+    Source channel_;
     Order order_;
     FrameCounts counts_{};
     std::uint32_t restart_count_{0U};

@@ -64,7 +64,7 @@ class E2eInPort final {
     using Value = typename Message::Value;
     using Profile = typename Message::Profile;
     using Order = typename std::remove_reference_t<decltype(kLimits)>::Sequence;
-    using Checker = E2eChecker<Profile, Order>;
+    using Checker = E2eChecker<Profile, Order, ConstantChannel<Message::kChannel>>;
 
     static_assert(ChannelIsSound<Order::find_fault(kLimits.order, Profile::kCounterMax)>::value);
     static_assert(are_sound(kLimits.demands, kLimits.window), "demands on the channel's window are unsound");
@@ -92,15 +92,16 @@ class E2eInPort final {
             has_value_ = false;  // whatever this reading brings: what is held is of another mode or run
             forget_waiting();
         }
-        outcome_ = judge_reading(now);
+        E2eOutcome outcome = judge_reading(now);
         if (!machine_.is_valid()) {
             has_value_ = false;
         }
-        if (outcome_ == E2eOutcome::kAccepted && !has_value_) {
-            outcome_ = E2eOutcome::kUnproven;
+        if (outcome == E2eOutcome::kAccepted && !has_value_) {
+            outcome = E2eOutcome::kUnproven;
         }
-        saturating_increment(counts_[static_cast<std::size_t>(outcome_)]);
-        if (outcome_ == E2eOutcome::kAccepted) {
+        outcome_ = outcome;
+        saturating_increment(counts_[static_cast<std::size_t>(outcome)]);
+        if (outcome == E2eOutcome::kAccepted) {
             value = value_;
             return E2eWorth::kNew;
         }
@@ -151,13 +152,14 @@ class E2eInPort final {
                 return open(frame, status, now);
             }
             forget_waiting();
-            note(status);
+            note(to_profile_status(status, kLimits.rule));
             return E2eOutcome::kRefused;
         }
         if (has_waiting()) {
             return open(detail::view_bytes(source_.get_taken()), waiting_, now);
         }
-        note(checker_.check_silence());
+        static_cast<void>(checker_.check_silence());
+        note(ProfileStatus::kNoNewData);
         return E2eOutcome::kSilent;
     }
     /// Takes the value out of a message that the check accepted. What was held before is older, and is
@@ -171,7 +173,7 @@ class E2eInPort final {
             detail::read_origin<Value>(payload, Message::kByteOrder, source_.get_published_at());
         if (kMayWait && !has_waiting() && judge(origin, now) == E2eOutcome::kEarly) {
             waiting_ = status;
-            note(CheckStatus::kNoNewData);
+            note(ProfileStatus::kNoNewData);
             return E2eOutcome::kEarly;
         }
         forget_waiting();
@@ -181,18 +183,18 @@ class E2eInPort final {
             outcome = judge(origin, now);
         }
         has_value_ = outcome == E2eOutcome::kAccepted;
-        note(has_value_ ? status : CheckStatus::kError);
+        note(has_value_ ? ProfileStatus::kOk : ProfileStatus::kError);
         return outcome;
     }
     static constexpr E2eOutcome judge(Instant origin, Instant now) noexcept {
         return judge_age(origin, now, kLimits.age_max, kLimits.lead_max);
     }
-    void note(CheckStatus status) noexcept {
-        static_cast<void>(machine_.check(to_profile_status(status, kLimits.rule)));  // its demands are sound
+    void note(ProfileStatus status) noexcept {
+        static_cast<void>(machine_.check(status));  // its demands are sound
     }
 
     detail::FrameSource<Port> source_;
-    Checker checker_{Message::kChannel, kLimits.order};
+    Checker checker_{{}, kLimits.order};
     std::array<ProfileStatus, kLimits.window> window_{};
     ChannelStateMachine machine_{window_, kLimits.demands};
     Value substitute_;

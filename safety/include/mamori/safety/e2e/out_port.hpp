@@ -41,7 +41,7 @@ class E2eOutPort final {
     /// @param[in] counter of the first frame, 0 .. Profile::kCounterMax; see E2eProtector.
     constexpr explicit E2eOutPort(OutPort<FrameT>& port,
                                   std::uint32_t counter = Profile::kFirstCounter) noexcept
-        : port_(port), protector_(Message::kChannel, counter) {}
+        : port_(port), protector_({}, counter) {}
     E2eOutPort(const E2eOutPort&) = delete;
     E2eOutPort& operator=(const E2eOutPort&) = delete;
 
@@ -73,7 +73,7 @@ class E2eOutPort final {
 
   private:
     OutPort<FrameT>& port_;
-    E2eProtector<Profile> protector_;
+    E2eProtector<Profile, ConstantChannel<Message::kChannel>> protector_;
     FrameT frame_{};
 };
 

@@ -10,6 +10,7 @@
 #ifndef MAMORI_SAFETY_E2E_PROFILE_04_HPP
 #define MAMORI_SAFETY_E2E_PROFILE_04_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -39,7 +40,6 @@ class SentIdProfile final {
     using Length = typename Layout::Length;
     using Checksum = Crc<Layout::kCrc, kSlices>;
     using Word = typename Checksum::Word;
-    static constexpr std::size_t kCrcEnd = Layout::kCrcAt + sizeof(Word);
 
   public:
     using Channel = SentIdChannel;
@@ -61,22 +61,31 @@ class SentIdProfile final {
         return detail::judge_length(channel.length_min, channel.length_max, length);
     }
 
-    /// Writes the header. @pre the channel has no fault and takes the length.
-    static constexpr void write(const Channel& channel, std::uint32_t counter,
-                                Span<std::byte> frame) noexcept {
+    /// Writes the header. @param[in] source a Channel or a ConstantChannel. @pre the channel has no fault and
+    /// takes the length.
+    template <typename Source>
+    static constexpr void write(const Source& source, std::uint32_t counter, Span<std::byte> frame) noexcept {
+        const Channel& channel = source;
         std::byte* const header = frame.data() + channel.offset;
-        detail::store_big(header + Layout::kLengthAt, static_cast<Length>(frame.size()));
-        detail::store_big(header + Layout::kCounterAt, static_cast<Counter>(counter));
+        const auto length = static_cast<Length>(frame.size());
+        const auto sent_counter = static_cast<Counter>(counter);
+        detail::store_big(header + Layout::kLengthAt, length);
+        detail::store_big(header + Layout::kCounterAt, sent_counter);
         detail::store_big(header + Layout::kIdAt, channel.data_id);
-        detail::store_big(header + Layout::kCrcAt, calc_checksum(channel, {frame.data(), frame.size()}));
+        const std::uint64_t first = Layout::join(length, sent_counter, channel.data_id);
+        detail::store_big(header + Layout::kCrcAt,
+                          calc_checksum(channel, {frame.data(), frame.size()}, first));
     }
 
     /// Reads the header. @pre the channel has no fault and takes the length.
     /// @param[out] counter written for kGood only. @return kGood, kChecksum, kDataId or kLengthField.
-    static constexpr FrameCause read(const Channel& channel, Span<const std::byte> frame,
+    template <typename Source>
+    static constexpr FrameCause read(const Source& source, Span<const std::byte> frame,
                                      std::uint32_t& counter) noexcept {
+        const Channel& channel = source;
         const std::byte* const header = frame.data() + channel.offset;
-        if (detail::load_big<Word>(header + Layout::kCrcAt) != calc_checksum(channel, frame)) {
+        const auto first = detail::load_big<std::uint64_t>(header + Layout::kLengthAt);
+        if (detail::load_big<Word>(header + Layout::kCrcAt) != calc_checksum(channel, frame, first)) {
             return FrameCause::kChecksum;
         }
         if (detail::load_big<std::uint32_t>(header + Layout::kIdAt) != channel.data_id) {
@@ -90,11 +99,28 @@ class SentIdProfile final {
     }
 
   private:
-    static constexpr Word calc_checksum(const Channel& channel, Span<const std::byte> frame) noexcept {
-        const std::size_t end = channel.offset + kCrcEnd;
+    /// @param[in] first the first fields as a number: a processor that reads them from the message waits for
+    ///                  the stores.
+    [[gnu::always_inline]] static constexpr Word calc_checksum(const Channel& channel,
+                                                               Span<const std::byte> frame,
+                                                               std::uint64_t first) noexcept {
+        const std::size_t rest = channel.offset + Layout::kRestAt;
+        const Checksum before =
+            channel.offset != 0U ? start_checksum({frame.data(), channel.offset}) : Checksum{};
+        return finish_checksum(before, first, {frame.data() + rest, frame.size() - rest});
+    }
+    /// A function of its own, because most channels have no bytes before the header.
+    [[gnu::noinline]] static constexpr Checksum start_checksum(Span<const std::byte> before) noexcept {
         Checksum crc;
-        crc.add({frame.data(), channel.offset + Layout::kCrcAt});
-        crc.add({frame.data() + end, frame.size() - end});
+        crc.add(before);
+        return crc;
+    }
+    static constexpr Word finish_checksum(Checksum crc, std::uint64_t first,
+                                          Span<const std::byte> rest) noexcept {
+        std::array<std::byte, sizeof(first)> first_bytes{};
+        detail::store_big(first_bytes.data(), first);
+        crc.add(first_bytes);
+        crc.add(rest);
         return crc.get_value();
     }
 };
@@ -110,7 +136,13 @@ struct Header04 {
     static constexpr std::size_t kCounterAt = 2U;
     static constexpr std::size_t kIdAt = 4U;
     static constexpr std::size_t kCrcAt = 8U;
+    static constexpr std::size_t kRestAt = 12U;  ///< where the checksum continues after the first fields
     static constexpr std::size_t kHeaderSize = 12U;
+
+    /// The first eight bytes of the fields, as a number.
+    static constexpr std::uint64_t join(Length length, Counter counter, std::uint32_t data_id) noexcept {
+        return std::uint64_t{length} << 48U | std::uint64_t{counter} << 32U | data_id;
+    }
 };
 
 struct Layout04 : Header04 {
@@ -129,6 +161,10 @@ struct Header07 {
     using Counter = std::uint32_t;
     static constexpr std::size_t kCrcAt = 0U;
     static constexpr std::size_t kLengthMax = 4194304U;
+
+    static constexpr std::uint64_t join(Length length, Counter counter, std::uint32_t /*data_id*/) noexcept {
+        return std::uint64_t{length} << 32U | counter;
+    }
 };
 
 struct Layout07 : Header07 {
@@ -137,6 +173,7 @@ struct Layout07 : Header07 {
     static constexpr std::size_t kLengthAt = 8U;
     static constexpr std::size_t kCounterAt = 12U;
     static constexpr std::size_t kIdAt = 16U;
+    static constexpr std::size_t kRestAt = 16U;
     static constexpr std::size_t kHeaderSize = 20U;
 };
 
@@ -146,6 +183,7 @@ struct Layout08 : Header07 {
     static constexpr std::size_t kLengthAt = 4U;
     static constexpr std::size_t kCounterAt = 8U;
     static constexpr std::size_t kIdAt = 12U;
+    static constexpr std::size_t kRestAt = 12U;
     static constexpr std::size_t kHeaderSize = 16U;
 };
 

@@ -18,10 +18,11 @@ namespace mamori::safety {
 
 /// Sending end of one channel.
 /// @tparam Profile E2eProfile01<> .. E2eProfile44<>.
+/// @tparam Source  Profile::Channel, kept in the object; a port takes ConstantChannel.
 ///
 /// Thread safety: none; one per sender. Time: O(length of the frame). Memory: the channel and a word; no
 /// heap.
-template <typename Profile>
+template <typename Profile, typename Source = typename Profile::Channel>
 class E2eProtector final {
   public:
     using Channel = typename Profile::Channel;
@@ -30,7 +31,7 @@ class E2eProtector final {
     /// @param[in] counter of the first frame, 0 .. Profile::kCounterMax. A sender that restarts inside a
     /// counter period
     ///                    of a HARDENED receiver goes on where it was.
-    explicit constexpr E2eProtector(const Channel& channel,
+    explicit constexpr E2eProtector(const Source& channel,
                                     std::uint32_t counter = Profile::kFirstCounter) noexcept
         : channel_(channel), counter_(counter) {
         if (Profile::find_fault(channel) != ChannelFault::kNone || counter > Profile::kCounterMax) {
@@ -63,7 +64,7 @@ class E2eProtector final {
     constexpr std::uint32_t get_counter() const noexcept { return counter_; }
 
   private:
-    Channel channel_;
+    Source channel_;
     std::uint32_t counter_;
     bool is_ready_{true};
 };
