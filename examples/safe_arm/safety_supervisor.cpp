@@ -32,7 +32,7 @@ SelfTestStatus SafetySupervisor::step_self_test(bool is_first, Instant now) noex
         start_up_.begin(now);
     }
     const SelfTestStatus status =
-        start_up_.step({arm_state.read().faults == 0U && is_watchdog_served(), reading.read()}, now);
+        start_up_.step({arm_state.read().faults == 0U && is_watchdog_serviced(), reading.read()}, now);
     if (status == SelfTestStatus::kPassed) {
         brakes_tested_at_.set(now);
     }

@@ -58,7 +58,7 @@ class Supervisor final : public SafetyCycle {
                 outputs};
     }
     SelfTestStatus step_self_test(bool is_first, Instant) noexcept override {
-        return !is_first && is_watchdog_served() ? SelfTestStatus::kPassed : SelfTestStatus::kRunning;
+        return !is_first && is_watchdog_serviced() ? SelfTestStatus::kPassed : SelfTestStatus::kRunning;
     }
     bool is_present(FaultIndex fault) noexcept override {
         return (seen.read() & flag(static_cast<Fault>(fault), true)) != 0U;

@@ -45,7 +45,7 @@ class FakeMachine final : public SafetyCycle {
     std::vector<std::string> calls{};
     std::function<void()> after_command{};
 
-    using SafetyCycle::is_watchdog_served;
+    using SafetyCycle::is_watchdog_serviced;
 
   private:
     CycleInputs read_inputs(Instant) noexcept override {
@@ -57,7 +57,9 @@ class FakeMachine final : public SafetyCycle {
         // A pass counts after a running test.
         return is_first && self_test == SelfTestStatus::kPassed ? SelfTestStatus::kRunning : self_test;
     }
-    bool wants_test_torque() noexcept override { return is_testing_torque; }
+    bool wants_test_torque() noexcept override {
+        return is_testing_torque || SafetyCycle::wants_test_torque();
+    }
     bool is_present(FaultIndex fault) noexcept override {
         calls.emplace_back("fault " + std::to_string(fault));
         return present[fault];

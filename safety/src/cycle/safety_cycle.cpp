@@ -71,7 +71,7 @@ void SafetyCycle::decide(Instant now) noexcept {
     inputs.reset_button = machine.reset_button;
     inputs.faults_cleared = state_.faults_.get_latched_count() == 0U;
     inputs.brakes_failed = have_brakes_failed(machine, before, now);
-    inputs.start_permitted = machine.may_start && is_watchdog_served_;
+    inputs.start_permitted = machine.may_start && is_watchdog_serviced_;
     inputs.lock_out = is_sto_unconfirmed(machine.has_torque, now);
     const SafeState state = state_.machine_.step(inputs);
     state_.flow_.report(FlowPoint::kJudged, now);
@@ -89,7 +89,7 @@ void SafetyCycle::decide(Instant now) noexcept {
     command(state, outputs);
     state_.flow_.report(FlowPoint::kCommanded, now);
     const GlobalStatus flow = to_global_status(state_.flow_.supervisor.step(now));
-    serve_watchdog(calc_worst(health, flow), state_.machine_.is_consistent() && !inputs.lock_out, now);
+    service_watchdog(calc_worst(health, flow), state_.machine_.is_consistent() && !inputs.lock_out, now);
     was_torque_wanted_ = outputs.torque_enable;
     stepped_at_ = now;
     has_stepped_ = true;
@@ -189,30 +189,32 @@ bool SafetyCycle::is_sto_unconfirmed(bool has_torque, Instant now) noexcept {
     return elapsed < Duration{0} || missing_for > state_.rules_.torque_feedback;
 }
 
-/// The outputs of the last frame show whether the reaction to the worst fault has begun.
+/// The outputs of the last frame show whether a reaction has begun. Each latched fault keeps its own time: a
+/// worse one that comes later gives no more of it.
 void SafetyCycle::measure_reaction(const ReactionDemand& demand, const StopOutputs& applied,
                                    Instant now) noexcept {
+    is_reaction_late_ = false;
+    for (std::size_t i = 0U; i < state_.faults_.get_capacity(); ++i) {
+        const FaultRecord& record = state_.faults_.get_record(static_cast<FaultIndex>(i));
+        const bool is_awaited = record.is_latched && !has_begun(record.demand.reaction, applied);
+        if (is_awaited && is_over(record.latched_at, now, record.demand.within)) {
+            is_reaction_late_ = true;
+        }
+    }
     if (demand.fault == kNoFault) {
         measured_fault_ = kNoFault;
-        is_reaction_late_ = false;
         return;
     }
-    const Instant latched_at = state_.faults_.get_record(demand.fault).latched_at;
-    if (!has_begun(demand.reaction, applied)) {
-        is_reaction_late_ = is_reaction_late_ || is_over(latched_at, now, demand.within);
-        return;
-    }
-    is_reaction_late_ = false;
-    if (measured_fault_ != demand.fault) {
+    if (has_begun(demand.reaction, applied) && measured_fault_ != demand.fault) {
         measured_fault_ = demand.fault;
-        const Duration time = calc_elapsed(latched_at, now);
+        const Duration time = calc_elapsed(state_.faults_.get_record(demand.fault).latched_at, now);
         longest_reaction_ = time > longest_reaction_ ? time : longest_reaction_;
     }
 }
 
-void SafetyCycle::serve_watchdog(GlobalStatus health, bool is_trustworthy, Instant now) noexcept {
+void SafetyCycle::service_watchdog(GlobalStatus health, bool is_trustworthy, Instant now) noexcept {
     const WatchdogOutcome outcome = state_.gate_.step(now, health, is_trustworthy);
-    is_watchdog_served_ = outcome == WatchdogOutcome::kServiced;
+    is_watchdog_serviced_ = outcome == WatchdogOutcome::kServiced;
     const bool is_refused = outcome != WatchdogOutcome::kServiced && outcome != WatchdogOutcome::kHeldBack;
     if (is_refused && !is_watchdog_refused_) {
         write_event(now, Severity::kFault, CycleEvent::kWatchdogRefused, static_cast<std::int64_t>(health));

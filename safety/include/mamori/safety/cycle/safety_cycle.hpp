@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The component that decides: supervises, latches faults, chooses the severest reaction, steps the
-/// safe-state machine, commands its outputs and serves the watchdog on proven health, always in this order. A
+/// safe-state machine, commands its outputs and services the watchdog on proven health, always in this order. A
 /// machine derives its supervisor and adds only its inputs and outputs.
 ///
 /// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009
@@ -87,7 +87,7 @@ class SafetyCycle : public Component {
     /// @}
 
     /// The watchdog took the service of the cycle before.
-    bool is_watchdog_served() const noexcept { return is_watchdog_served_; }
+    bool is_watchdog_serviced() const noexcept { return is_watchdog_serviced_; }
 
   private:
     // Each virtual function here is inline, so that an application with RTTI can derive from this class.
@@ -103,7 +103,7 @@ class SafetyCycle : public Component {
     bool have_brakes_failed(const CycleInputs& machine, SafeState state, Instant now) const noexcept;
     bool is_sto_unconfirmed(bool has_torque, Instant now) noexcept;
     void measure_reaction(const ReactionDemand& demand, const StopOutputs& applied, Instant now) noexcept;
-    void serve_watchdog(GlobalStatus health, bool is_trustworthy, Instant now) noexcept;
+    void service_watchdog(GlobalStatus health, bool is_trustworthy, Instant now) noexcept;
     void write_event(Instant now, Severity severity, CycleEvent event, std::int64_t argument) noexcept;
 
     SafetyState& state_;
@@ -119,7 +119,7 @@ class SafetyCycle : public Component {
     bool is_self_testing_{false};
     bool is_reaction_late_{false};
     bool is_watchdog_refused_{false};
-    bool is_watchdog_served_{false};  ///< in the frame before
+    bool is_watchdog_serviced_{false};  ///< in the frame before
 };
 
 }  // namespace mamori::safety
