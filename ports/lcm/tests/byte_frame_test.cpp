@@ -91,6 +91,27 @@ TEST_F(ByteFrameTest, EveryLengthAndContentComesBackAndHasNoZeroInside) {
     }
 }
 
+TEST_F(ByteFrameTest, TheLongestFrameHasOneMoreOctetPer254OctetsBegun) {
+    verifies("SWR-LCM-009", Technique::kBoundaryValues, Polarity::kNominal);
+    EXPECT_EQ(calc_frame_size_max(0U), 7U);
+    EXPECT_EQ(calc_frame_size_max(249U), 256U);
+    EXPECT_EQ(calc_frame_size_max(250U), 258U);  // with the checksum one full block
+    EXPECT_EQ(calc_frame_size_max(503U), 511U);
+    EXPECT_EQ(calc_frame_size_max(504U), 513U);
+    EXPECT_EQ(make_frame(Octets(250U, std::byte{0x5A})).size(), 258U);
+}
+
+TEST_F(ByteFrameTest, ANewDecoderHasNoMessageAndTakesAFrameWhoseBeginItMissed) {
+    verifies("SWR-LCM-009", Technique::kStateTransition, Polarity::kNominal);
+    EXPECT_TRUE(get_message().empty());
+
+    Octets frame = make_frame(make_octets({1, 2, 3}));
+    frame.erase(frame.begin());
+    EXPECT_EQ(push(frame), FrameEvent::kMessage);
+    EXPECT_EQ(get_message(), make_octets({1, 2, 3}));
+    EXPECT_EQ(events_, 1);
+}
+
 TEST_F(ByteFrameTest, ABufferThatIsTooSmallStaysUnchanged) {
     verifies("SWR-LCM-009", Technique::kBoundaryValues, Polarity::kViolation);
     const Octets message(300U, std::byte{1});

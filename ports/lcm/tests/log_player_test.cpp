@@ -17,6 +17,7 @@
 #include "mamori/kernel/payload/trace_hash.hpp"
 #include "mamori/ports/lcm/link_components.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/free_descriptor.hpp"
 #include "support/log_writer.hpp"
 #include "support/random_value.hpp"
 #include "support/sample_types.hpp"
@@ -25,6 +26,7 @@ namespace mamori::ports::lcm {
 namespace {
 
 using lcm_sample::Cloud;
+using lcm_sample::find_free_descriptor;
 using Message = lcm_sample::CloudMessage;
 using Queue = MessageQueue<Message, 8U>;
 using namespace verification;
@@ -123,6 +125,22 @@ TEST_F(LogPlayerTest, ALoggedRunReplaysToTheSameOutputs) {
     EXPECT_EQ(replay.get_hash(), original.get_hash());
 }
 
+TEST_F(LogPlayerTest, APlayerWithoutALogIsAtItsBeginAndOneThatIsDestroyedClosesItsLog) {
+    verifies("SWR-LCM-012", Technique::kStateTransition, Polarity::kNominal);
+    add_event(0, "STATE", {});
+    std::ofstream(path_, std::ios::binary) << log_;
+    const int free = find_free_descriptor();
+    {
+        LogPlayer player;
+        EXPECT_EQ(player.get_offset(), 0U);
+        EXPECT_EQ(player.get_event_count(), 0U);
+        EXPECT_EQ(player.deliver_until(Instant{0}), Status::kPreconditionNotMet);
+        ASSERT_EQ(player.open(path_.c_str()), Status::kOk);
+        EXPECT_NE(find_free_descriptor(), free);
+    }
+    EXPECT_EQ(find_free_descriptor(), free);
+}
+
 TEST_F(LogPlayerTest, EventsAreDeliveredAtTheirInstantAndNotBefore) {
     verifies("SWR-LCM-012", Technique::kBoundaryValues, Polarity::kNominal);
     add_event(0, "STATE", make_message(Cloud{}));
@@ -202,7 +220,8 @@ TEST_F(LogPlayerTest, LongNamesLargeMessagesAndRandomOctetsAreHandled) {
 
 TEST_F(LogPlayerTest, ALargeMessageIsOversizedFromOneOctetAboveTheBufferOn) {
     verifies("SWR-LCM-012", Technique::kBoundaryValues, Polarity::kViolation);
-    add_event(0, "STATE", std::vector<std::byte>(LogPlayer::kMessageMax));
+    constexpr std::size_t kLargest = 65536U;
+    add_event(0, "STATE", std::vector<std::byte>(kLargest));
     ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
     ASSERT_EQ(open(), Status::kOk);
     EXPECT_EQ(player_.deliver_until(Instant{0}), Status::kPreconditionNotMet);
@@ -210,7 +229,7 @@ TEST_F(LogPlayerTest, ALargeMessageIsOversizedFromOneOctetAboveTheBufferOn) {
     player_.close();
 
     log_.clear();
-    add_event(0, "STATE", std::vector<std::byte>(LogPlayer::kMessageMax + 1U));
+    add_event(0, "STATE", std::vector<std::byte>(kLargest + 1U));
     ASSERT_EQ(open(), Status::kOk);
     EXPECT_EQ(player_.deliver_until(Instant{0}), Status::kPreconditionNotMet);
     EXPECT_EQ(queue_.get_counts().foreign, 1U);
@@ -231,7 +250,7 @@ TEST_F(LogPlayerTest, ALargeMessageThatIsCutOrHasAnImpossibleSizeIsReported) {
 
 TEST_F(LogPlayerTest, MoreChannelsThanTheLimitAreRejected) {
     verifies("SWR-LCM-012", Technique::kBoundaryValues, Polarity::kViolation);
-    for (std::size_t i = 0U; i < LogPlayer::kChannelsMax; ++i) {
+    for (int channel = 0; channel < 16; ++channel) {
         ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
     }
     EXPECT_EQ(player_.receive("STATE", queue_), Status::kOutOfResources);

@@ -130,17 +130,28 @@ TEST_F(LogReplayTest, APauseOfMoreThanAnHourEndsTheReplay) {
     const std::size_t good = writer_.log.size();
     writer_.add_event(4'000'000'000, "STATE", make_message());
     ASSERT_EQ(open(), Status::kOk);
+    constexpr Duration kHour{3'600'000 * kMs};
     const Instant last{2000 * kMs};
 
     EXPECT_TRUE(sut_->advance(Instant{0}));
     EXPECT_TRUE(sut_->advance(last));
-    EXPECT_TRUE(sut_->advance(last + LogReplay::kPauseMax));
-    EXPECT_FALSE(sut_->advance(last + LogReplay::kPauseMax + Duration{1}));
+    EXPECT_TRUE(sut_->advance(last + kHour));
+    EXPECT_FALSE(sut_->advance(last + kHour + Duration{1}));
     EXPECT_EQ(sut_->report(4U), Status::kError);
 
     EXPECT_NE(read_text().find("no event for an hour before offset " + std::to_string(good)),
               std::string::npos)
         << read_text();
+}
+
+TEST_F(LogReplayTest, ThePauseBeginsAtTheLastEventAlsoIfTheFirstFrameIsLate) {
+    verifies("SWR-LCM-014", Technique::kBoundaryValues, Polarity::kNominal);
+    writer_.add_event(0, "STATE", make_message());
+    writer_.add_event(8'000'000'000, "STATE", make_message());
+    ASSERT_EQ(open(), Status::kOk);
+
+    EXPECT_TRUE(sut_->advance(Instant{0} + LogReplay::kPauseMax + Duration{1}));
+    EXPECT_EQ(sut_->report(1U), Status::kOk);
 }
 
 TEST_F(LogReplayTest, WrongArgumentsAreRejectedInOneLine) {
