@@ -6,7 +6,6 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
-#include <poll.h>
 #include <sys/socket.h>
 #include <termios.h>
 #include <unistd.h>
@@ -15,7 +14,6 @@
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
-#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,6 +22,7 @@
 #include "mamori/safety/e2e/protector.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "support/free_descriptor.hpp"
+#include "support/interrupted_call.hpp"
 #include "support/sample_types.hpp"
 
 namespace lcm_limit {
@@ -51,22 +50,13 @@ namespace {
 
 using lcm_limit::LargeMessage;
 using lcm_sample::find_free_descriptor;
+using lcm_sample::wait_until;
 using namespace verification;
 
 constexpr std::size_t kDatagram = 2048U;
 static_assert(calc_frame_size_max(LargeMessage::kSizeMax) == kDatagram);
 
 using Octets = std::vector<std::byte>;
-
-/// Waits until `condition` holds, 10 s at most. @return whether it holds.
-bool wait_until(const std::function<bool()>& condition) {
-    bool holds = condition();
-    for (int i = 0; i < 10'000 && !holds; ++i) {
-        ::poll(nullptr, 0U, 1);
-        holds = condition();
-    }
-    return holds;
-}
 
 class FrameLimitTest : public ::testing::Test {
   protected:

@@ -12,11 +12,13 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "mamori/trace/verifies.hpp"
+#include "support/interrupted_call.hpp"
 #include "support/log_writer.hpp"
 #include "support/sample_types.hpp"
 
@@ -168,6 +170,31 @@ TEST_F(LogReplayTest, WrongArgumentsAreRejectedInOneLine) {
               "usage: program --replay LOG\nusage: program --replay LOG\nusage: program --replay LOG\n"
               "usage: PROGRAM --replay LOG\n/nonexistent/log: cannot be read, or is not a log of lcm-logger; "
               "specify the log\n");
+}
+
+TEST_F(LogReplayTest, ALineHasUpTo1024CharactersAndTheLargestNumbers) {
+    verifies("SWR-LCM-014", Technique::kBoundaryValues, Polarity::kViolation);
+    const std::string program(2000U, 'p');
+    const std::array<const char*, 1U> arguments{program.c_str()};
+    EXPECT_EQ(sut_->open(channels_, true, 1, arguments.data()), Status::kBadParameter);
+    EXPECT_EQ(read_text(), "usage: " + std::string(1017U, 'p'));
+    ASSERT_EQ(::ftruncate(file_, 0), 0);
+    ASSERT_EQ(::lseek(file_, 0, SEEK_SET), 0);
+
+    constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max();
+    EXPECT_EQ(sut_->report(kLargest), Status::kOk);
+    sut_->report_hash(0U, kLargest);
+    EXPECT_EQ(read_text(), "events 0, frames 18446744073709551615\ncore 0: trace hash ffffffffffffffff\n");
+}
+
+TEST_F(LogReplayTest, AfterARefusedPartOfALineNothingMoreOfItIsWritten) {
+    verifies("SWR-LCM-014", Technique::kFaultInjection, Polarity::kViolation);
+    {
+        const lcm_sample::OneOctetScope scope;
+        sut_->report_failure();
+    }
+    EXPECT_EQ(lcm_sample::SignalScope::count, 1);  // the second part
+    EXPECT_EQ(read_text(), "t");
 }
 
 TEST_F(LogReplayTest, ATableWithoutHashIsRejected) {

@@ -4,24 +4,21 @@
 // and a file that may have one octet.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <poll.h>
 #include <pthread.h>
 #include <sys/ioctl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
 #include <string>
 #include <thread>
 #include <utility>
 
 #include "mamori/ports/lcm/type_printer.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/interrupted_call.hpp"
 #include "support/sample_types.hpp"
 #include "support/text_file.hpp"
 
@@ -87,6 +84,9 @@ namespace {
 using lcm_limit::Named;
 using lcm_limit::Numbered;
 using lcm_sample::count_parts;
+using lcm_sample::OneOctetScope;
+using lcm_sample::SignalScope;
+using lcm_sample::wait_until;
 using lcm_sample::inner::Point;
 using namespace verification;
 
@@ -176,33 +176,6 @@ TEST_F(TypeLimitTest, AProgramPrintsItsTypesToTheStandardOutputAndFailsIfItIsInc
     EXPECT_EQ(incomplete, 1);
 }
 
-std::atomic<int> signal_count{0};
-
-/// Counts `signal`, which interrupts a system call, while it exists.
-class SignalScope final {
-  public:
-    SignalScope(int signal, void (*handler)(int)) : signal_(signal) {
-        signal_count = 0;
-        struct sigaction action{};
-        action.sa_handler = handler;
-        EXPECT_EQ(::sigaction(signal_, &action, &before_), 0);
-    }
-    SignalScope(const SignalScope&) = delete;
-    SignalScope& operator=(const SignalScope&) = delete;
-    ~SignalScope() { EXPECT_EQ(::sigaction(signal_, &before_, nullptr), 0); }
-
-  private:
-    int signal_;
-    struct sigaction before_{};
-};
-
-/// Waits until `condition` holds, 10 s at most.
-void wait_until(const std::function<bool()>& condition) {
-    for (int i = 0; i < 10'000 && !condition(); ++i) {
-        ::poll(nullptr, 0U, 1);
-    }
-}
-
 TEST_F(TypeLimitTest, AnOutputThatTakesATextInPartsGetsAllOfIt) {
     verifies("SWR-LCM-001", Technique::kFaultInjection, Polarity::kNominal);
     std::array<int, 2U> ends{};
@@ -210,14 +183,14 @@ TEST_F(TypeLimitTest, AnOutputThatTakesATextInPartsGetsAllOfIt) {
     const int room = ::fcntl(ends[1], F_SETPIPE_SZ, 4096);
     ASSERT_GT(room, 0);
     ASSERT_LT(room, static_cast<int>(kText));
-    const SignalScope scope(SIGUSR1, [](int) { ++signal_count; });
+    const SignalScope scope(SIGUSR1);
     std::string text;
     // A signal ends the call that waits at the full pipe. The pipe is read after the call has returned.
     std::thread reader([&text, &ends, room, writer = ::pthread_self()] {
         int waiting = 0;
-        wait_until([&] { return ::ioctl(ends[0], FIONREAD, &waiting) == 0 && waiting == room; });
+        EXPECT_TRUE(wait_until([&] { return ::ioctl(ends[0], FIONREAD, &waiting) == 0 && waiting == room; }));
         EXPECT_EQ(::pthread_kill(writer, SIGUSR1), 0);
-        wait_until([] { return signal_count != 0; });
+        EXPECT_TRUE(wait_until([] { return SignalScope::count != 0; }));
         std::array<char, 4096U> part{};
         for (ssize_t size = 1; size > 0;) {
             size = ::read(ends[0], part.data(), part.size());
@@ -231,40 +204,19 @@ TEST_F(TypeLimitTest, AnOutputThatTakesATextInPartsGetsAllOfIt) {
     EXPECT_EQ(::close(ends[0]), 0);
 
     EXPECT_EQ(printer.get_status(), Status::kOk);
-    EXPECT_EQ(signal_count, 1);
+    EXPECT_EQ(SignalScope::count, 1);
     printer_.add<Longest>();
     EXPECT_EQ(text, file_.read());
 }
 
-/// Files of this process may have `size` octets until a longer one is refused.
-class FileSizeScope final {
-  public:
-    explicit FileSizeScope(rlim_t size) {
-        EXPECT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-        const rlimit now{size, before.rlim_max};
-        EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &now), 0);
-    }
-    FileSizeScope(const FileSizeScope&) = delete;
-    FileSizeScope& operator=(const FileSizeScope&) = delete;
-    ~FileSizeScope() { EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0); }
-    static void allow_more(int /*signal*/) {
-        ++signal_count;
-        static_cast<void>(::setrlimit(RLIMIT_FSIZE, &before));
-    }
-
-  private:
-    static inline rlimit before{};
-};
-
 TEST_F(TypeLimitTest, AfterARefusedPartNothingMoreIsWrittenAndTheOutputIsReported) {
     verifies("SWR-LCM-001", Technique::kFaultInjection, Polarity::kViolation);
     {
-        const SignalScope refused(SIGXFSZ, &FileSizeScope::allow_more);
-        const FileSizeScope one(1U);
+        const OneOctetScope scope;
         printer_.add<Point>();
     }
 
-    EXPECT_EQ(signal_count, 1);  // the second part
+    EXPECT_EQ(SignalScope::count, 1);  // the second part
     EXPECT_EQ(printer_.get_status(), Status::kError);
     EXPECT_EQ(file_.read(), "/");
 }
