@@ -40,6 +40,21 @@ using Joints = mamori::rtc::TimedDoubleSeq<7U>;
 struct One {
     std::uint8_t octet{0U};
 };
+/// Limits with each number of digits.
+struct Limits {
+    mamori::BoundedString<9U> a{};
+    mamori::BoundedString<10U> b{};
+    mamori::BoundedString<99U> c{};
+    mamori::BoundedString<100U> d{};
+    mamori::BoundedString<1234U> e{};
+};
+/// A struct in a struct in a struct.
+struct Middle {
+    One one{};
+};
+struct Outer {
+    Middle middle{};
+};
 struct Clash {
     std::int32_t n_values{0};
     mamori::BoundedSequence<std::int16_t, 2U> values{};
@@ -52,6 +67,9 @@ MAMORI_FIELDS(lcm_codec_test::Small, is_on, colour, values, name)
 MAMORI_LCM_NAMES(lcm_codec_test::Small, is_on, colour, values, name)
 MAMORI_LCM_FIELDS(lcm_codec_test::Renamed, is_off, colour, values, name)
 MAMORI_LCM_FIELDS(lcm_codec_test::One, octet)
+MAMORI_LCM_FIELDS(lcm_codec_test::Limits, a, b, c, d, e)
+MAMORI_LCM_FIELDS(lcm_codec_test::Middle, one)
+MAMORI_LCM_FIELDS(lcm_codec_test::Outer, middle)
 MAMORI_LCM_FIELDS(lcm_codec_test::Clash, n_values, values)
 MAMORI_LCM_NAMES(lcm_codec_test::Joints, tm, data)
 
@@ -350,6 +368,36 @@ TEST(LcmTypeTest, TheTextNamesPackageStructFieldsLengthsAndLimits) {
         "}\n");
 }
 
+TEST(LcmTypeTest, LimitsOfAnyNumberOfDigitsAreInTheText) {
+    verifies("SWR-LCM-001", Technique::kBoundaryValues, Polarity::kNominal);
+    std::array<char, 512U> buffer{};
+    const std::size_t size =
+        write_lcm_text<lcm_codec_test::Limits>({buffer.data(), buffer.size()}).get_value();
+    const std::string text(buffer.data(), size);
+
+    EXPECT_NE(text.find("    string a;  // up to 9 characters\n"
+                        "    string b;  // up to 10 characters\n"
+                        "    string c;  // up to 99 characters\n"
+                        "    string d;  // up to 100 characters\n"
+                        "    string e;  // up to 1234 characters\n"),
+              std::string::npos)
+        << text;
+}
+
+TEST(LcmTypeTest, StructsInStructsComeBeforeThemAtEachDepth) {
+    verifies("SWR-LCM-001", Technique::kRequirementsBased, Polarity::kNominal);
+    struct NameList {
+        std::string names{};
+        void operator()(mamori::detail::TypeList<lcm_codec_test::One> /*type*/) { names += "One "; }
+        void operator()(mamori::detail::TypeList<lcm_codec_test::Middle> /*type*/) { names += "Middle "; }
+        void operator()(mamori::detail::TypeList<lcm_codec_test::Outer> /*type*/) { names += "Outer "; }
+    };
+    NameList list{};
+    for_each_lcm_struct<lcm_codec_test::Outer>(list);
+
+    EXPECT_EQ(list.names, "One Middle Outer ");
+}
+
 TEST(LcmTypeTest, TimedTypesOfRtMiddlewareHaveNames) {
     verifies("SWR-LCM-001", Technique::kRequirementsBased, Polarity::kNominal);
     std::array<char, 512U> buffer{};
@@ -376,7 +424,9 @@ TEST(LcmTypeTest, ATextThatDoesNotFitAndAClashOfNamesAreDetected) {
     std::array<char, 512U> text{};
     const std::size_t size = write_lcm_text<Small>({text.data(), text.size()}).get_value();
 
+    text[size - 1U] = '#';
     EXPECT_EQ(write_lcm_text<Small>({text.data(), size - 1U}).get_status(), Status::kOutOfResources);
+    EXPECT_EQ(text[size - 1U], '#');
     EXPECT_EQ(write_lcm_text<Small>({text.data(), size}).get_value(), size);
     static_assert(detail::has_name_clash<lcm_codec_test::Clash>({}));
     static_assert(!detail::has_name_clash<Small>({}));
