@@ -17,7 +17,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -31,6 +30,7 @@
 #include "mamori/trace/verifies.hpp"
 #include "support/free_descriptor.hpp"
 #include "support/sample_types.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/thread_policy.hpp"
 
 namespace mamori::ports::lcm {
@@ -175,7 +175,8 @@ TEST_F(LcmLinkTest, ASenderWithAnInvalidChannelDoesNotOpenAndSendsNothing) {
 
 TEST_F(LcmLinkTest, ALogOfTheOfficialLibraryIsReplayed) {
     verifies("SWR-LCM-012", Technique::kBackToBack, Polarity::kNominal);
-    const std::string path = ::testing::TempDir() + "mamori_lcm_log_" + std::to_string(::getpid());
+    const lcm_sample::TemporaryFolder folder;
+    const std::string path = folder.get_path("log");
     ASSERT_EQ(link_.open(("file://" + path + "?mode=w").c_str()), Status::kOk);
     LcmSender sender(link_, "STATE");
     ASSERT_EQ(sender.open(), Status::kOk);
@@ -200,7 +201,6 @@ TEST_F(LcmLinkTest, ALogOfTheOfficialLibraryIsReplayed) {
         ASSERT_EQ(decode_protected<Message>(message_, value), Status::kOk);
         EXPECT_EQ(value.last.f, i);
     }
-    EXPECT_EQ(std::remove(path.c_str()), 0);
 }
 
 /// Multicast in a network namespace of a child process, which ends with it.

@@ -16,7 +16,6 @@
 #include <array>
 #include <atomic>
 #include <csignal>
-#include <cstdio>
 #include <fstream>
 #include <random>
 #include <string>
@@ -31,6 +30,7 @@
 #include "support/log_writer.hpp"
 #include "support/random_value.hpp"
 #include "support/sample_types.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mamori::ports::lcm {
 namespace {
@@ -43,8 +43,6 @@ using namespace verification;
 
 class LogPlayerTest : public ::testing::Test {
   protected:
-    void TearDown() override { static_cast<void>(std::remove(path_.c_str())); }
-
     void add_event(std::int64_t time_us, const std::string& channel, const std::vector<std::byte>& message) {
         writer_.add_event(time_us, channel, message);
     }
@@ -60,7 +58,8 @@ class LogPlayerTest : public ::testing::Test {
         return octets;
     }
 
-    std::string path_{::testing::TempDir() + "mamori_log_player_" + std::to_string(::getpid())};
+    lcm_sample::TemporaryFolder folder_{};
+    std::string path_{folder_.get_path("log")};
     lcm_sample::LogWriter writer_{};
     std::string& log_{writer_.log};
     safety::E2eProtector<Message::Profile> protector_{Message::kChannel};

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -21,6 +20,7 @@
 #include "support/interrupted_call.hpp"
 #include "support/log_writer.hpp"
 #include "support/sample_types.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mamori::ports::lcm {
 namespace {
@@ -35,11 +35,7 @@ constexpr std::int64_t kMs = 1'000'000;
 class LogReplayTest : public ::testing::Test {
   protected:
     LogReplayTest() : file_(::open(text_path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)) {}
-    void TearDown() override {
-        static_cast<void>(::close(file_));
-        static_cast<void>(std::remove(text_path_.c_str()));
-        static_cast<void>(std::remove(path_.c_str()));
-    }
+    void TearDown() override { static_cast<void>(::close(file_)); }
     std::vector<std::byte> make_message() {
         std::vector<std::byte> octets(Message::kSizeMax);
         const Result<std::size_t> size =
@@ -57,7 +53,8 @@ class LogReplayTest : public ::testing::Test {
         return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     }
 
-    std::string path_{::testing::TempDir() + "mamori_log_replay_" + std::to_string(::getpid())};
+    lcm_sample::TemporaryFolder folder_{};
+    std::string path_{folder_.get_path("log")};
     std::string text_path_{path_ + ".text"};
     int file_;
     lcm_sample::LogWriter writer_{};
