@@ -285,8 +285,9 @@ TEST_F(LogPlayerTest, OnlyLettersDigitsAndFourOtherCharactersAreAllowedInAChanne
         const std::string name{'a', static_cast<char>(code)};
         LogPlayer player;
         const bool is_allowed = allowed.find(static_cast<char>(code)) != std::string::npos;
-        EXPECT_EQ(player.receive(name.c_str(), queue_), is_allowed ? Status::kOk : Status::kBadParameter)
-            << code;
+        const Status expected = is_allowed ? Status::kOk : Status::kBadParameter;
+        EXPECT_EQ(player.receive(name.c_str(), queue_), expected) << code;
+        EXPECT_EQ(player.receive(name.c_str() + 1U, queue_), expected) << code;  // one character
     }
 }
 
