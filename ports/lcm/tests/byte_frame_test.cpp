@@ -31,7 +31,7 @@ Octets make_octets(std::initializer_list<int> values) {
 }
 
 Octets make_frame(const Octets& message) {
-    Octets frame(calc_frame_size_max(message.size()));
+    Octets frame(calc_frame_size_max(message.size()), std::byte{0xA5});
     const Result<std::size_t> size =
         encode_frame({message.data(), message.size()}, {frame.data(), frame.size()});
     EXPECT_TRUE(size.has_value());
@@ -91,6 +91,27 @@ TEST_F(ByteFrameTest, EveryLengthAndContentComesBackAndHasNoZeroInside) {
     }
 }
 
+TEST_F(ByteFrameTest, TheLongestFrameHasOneMoreOctetPer254OctetsBegun) {
+    verifies("SWR-LCM-009", Technique::kBoundaryValues, Polarity::kNominal);
+    EXPECT_EQ(calc_frame_size_max(0U), 7U);
+    EXPECT_EQ(calc_frame_size_max(249U), 256U);
+    EXPECT_EQ(calc_frame_size_max(250U), 258U);  // with the checksum one full block
+    EXPECT_EQ(calc_frame_size_max(503U), 511U);
+    EXPECT_EQ(calc_frame_size_max(504U), 513U);
+    EXPECT_EQ(make_frame(Octets(250U, std::byte{0x5A})).size(), 258U);
+}
+
+TEST_F(ByteFrameTest, ANewDecoderHasNoMessageAndTakesAFrameWhoseBeginItMissed) {
+    verifies("SWR-LCM-009", Technique::kStateTransition, Polarity::kNominal);
+    EXPECT_TRUE(get_message().empty());
+
+    Octets frame = make_frame(make_octets({1, 2, 3}));
+    frame.erase(frame.begin());
+    EXPECT_EQ(push(frame), FrameEvent::kMessage);
+    EXPECT_EQ(get_message(), make_octets({1, 2, 3}));
+    EXPECT_EQ(events_, 1);
+}
+
 TEST_F(ByteFrameTest, ABufferThatIsTooSmallStaysUnchanged) {
     verifies("SWR-LCM-009", Technique::kBoundaryValues, Polarity::kViolation);
     const Octets message(300U, std::byte{1});
@@ -118,6 +139,29 @@ TEST_F(ByteFrameTest, EachKindOfDamageIsReportedAndTheNextFrameIsFound) {
     EXPECT_EQ(push(good), FrameEvent::kMessage);
     EXPECT_EQ(events_, 5);
     EXPECT_EQ(get_message(), make_octets({1, 2, 3}));
+}
+
+TEST_F(ByteFrameTest, EveryFlippedBitOfAFrameIsDetected) {
+    verifies("SWR-LCM-009", Technique::kFaultInjection, Polarity::kViolation);
+    const Octets good = make_frame(make_octets({'1', '2', '3', '4', '5', '6', '7', '8', '9'}));
+    for (std::size_t bit = 8U; bit < (good.size() - 1U) * 8U; ++bit) {
+        Octets flipped = good;
+        flipped[bit / 8U] ^= std::byte{1U} << (bit % 8U);
+        EXPECT_NE(push(flipped), FrameEvent::kMessage) << bit;
+        EXPECT_EQ(push(good), FrameEvent::kMessage) << bit;
+    }
+}
+
+TEST_F(ByteFrameTest, AResetDropsTheLastMessageAndTheBegunFrame) {
+    verifies("SWR-LCM-009", Technique::kStateTransition, Polarity::kNominal);
+    const Octets good = make_frame(make_octets({1, 2, 3}));
+    ASSERT_EQ(push(good), FrameEvent::kMessage);
+    ASSERT_EQ(push(make_octets({5, 1})), FrameEvent::kNone);
+    decoder_.reset();
+
+    EXPECT_TRUE(get_message().empty());
+    EXPECT_EQ(push(good), FrameEvent::kMessage);
+    EXPECT_EQ(events_, 2);
 }
 
 /// One stretch of the stream: an undamaged frame, a mutated one, or random octets.

@@ -5,6 +5,8 @@
 #include "mamori/ports/lcm/codec.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +16,7 @@
 #include "mamori/ports/lcm/rtc_names.hpp"
 #include "mamori/ports/lcm/type_printer.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "support/random_value.hpp"
 #include "support/sample_types.hpp"
 
@@ -34,6 +37,24 @@ struct Renamed {
     mamori::BoundedString<3U> name{};
 };
 using Joints = mamori::rtc::TimedDoubleSeq<7U>;
+struct One {
+    std::uint8_t octet{0U};
+};
+/// Limits with each number of digits.
+struct Limits {
+    mamori::BoundedString<9U> a{};
+    mamori::BoundedString<10U> b{};
+    mamori::BoundedString<99U> c{};
+    mamori::BoundedString<100U> d{};
+    mamori::BoundedString<1234U> e{};
+};
+/// A struct in a struct in a struct.
+struct Middle {
+    One one{};
+};
+struct Outer {
+    Middle middle{};
+};
 struct Clash {
     std::int32_t n_values{0};
     mamori::BoundedSequence<std::int16_t, 2U> values{};
@@ -45,6 +66,10 @@ MAMORI_LAST_ENUMERATOR(lcm_codec_test::Colour, kGreen)
 MAMORI_FIELDS(lcm_codec_test::Small, is_on, colour, values, name)
 MAMORI_LCM_NAMES(lcm_codec_test::Small, is_on, colour, values, name)
 MAMORI_LCM_FIELDS(lcm_codec_test::Renamed, is_off, colour, values, name)
+MAMORI_LCM_FIELDS(lcm_codec_test::One, octet)
+MAMORI_LCM_FIELDS(lcm_codec_test::Limits, a, b, c, d, e)
+MAMORI_LCM_FIELDS(lcm_codec_test::Middle, one)
+MAMORI_LCM_FIELDS(lcm_codec_test::Outer, middle)
 MAMORI_LCM_FIELDS(lcm_codec_test::Clash, n_values, values)
 MAMORI_LCM_NAMES(lcm_codec_test::Joints, tm, data)
 
@@ -143,6 +168,119 @@ TEST(LcmCodecTest, TruncatedAndExtendedMessagesAreRejectedWithoutAChange) {
     EXPECT_EQ(encode_all(value), encode_all(Small{}));
 }
 
+/// Memory whose last octet is followed by a page that ends the program when it is read.
+class GuardedMemory final {
+  public:
+    GuardedMemory() {
+        EXPECT_NE(pages_, MAP_FAILED);
+        EXPECT_EQ(::mprotect(static_cast<std::byte*>(pages_) + size_, size_, PROT_NONE), 0);
+    }
+    GuardedMemory(const GuardedMemory&) = delete;
+    GuardedMemory& operator=(const GuardedMemory&) = delete;
+    ~GuardedMemory() { EXPECT_EQ(::munmap(pages_, 2U * size_), 0); }
+    /// @return the first `length` octets at the end of the memory.
+    Span<const std::byte> put(const Octets& octets, std::size_t length) {
+        std::byte* const begin = static_cast<std::byte*>(pages_) + (size_ - length);
+        std::copy_n(octets.begin(), length, begin);
+        return {begin, length};
+    }
+
+  private:
+    std::size_t size_{static_cast<std::size_t>(::sysconf(_SC_PAGESIZE))};
+    void* pages_{::mmap(nullptr, 2U * size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)};
+};
+
+template <typename T>
+void expect_no_truncated_message() {
+    GuardedMemory memory;
+    std::mt19937_64 random(13U);
+    for (int i = 0; i < 20; ++i) {
+        const Octets good = encode_all(lcm_sample::make_random<T>(random));
+        T value{};
+        for (std::size_t length = 0U; length < good.size(); ++length) {
+            ASSERT_EQ(decode_lcm(memory.put(good, length), value), Status::kBadParameter) << length;
+        }
+        ASSERT_EQ(encode_all(value), encode_all(T{}));
+        ASSERT_EQ(decode_lcm(memory.put(good, good.size()), value), Status::kOk);
+    }
+}
+
+TEST(LcmCodecTest, ATruncatedMessageOfAnyTypeIsRejectedWithoutReadingAfterIt) {
+    verifies("SWR-LCM-004", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_no_truncated_message<lcm_sample::Reading>();
+    expect_no_truncated_message<lcm_sample::Robot>();
+    expect_no_truncated_message<lcm_sample::Cloud>();
+}
+
+TEST(LcmCodecTest, ARejectedMessageDoesNotChangeAValueThatIsNotEmpty) {
+    verifies("SWR-LCM-004", Technique::kBoundaryValues, Polarity::kViolation);
+    const Small other{};
+    const Octets empty = encode_all(other);
+    // A sequence of 3 numbers, limit 2; a string of 4 characters, limit 3: consistent in all octets.
+    Octets long_sequence = empty;
+    long_sequence[at(8U)] = std::byte{3};
+    long_sequence.insert(long_sequence.begin() + static_cast<std::ptrdiff_t>(at(9U)), 6U, std::byte{1});
+    Octets long_string = empty;
+    long_string[at(12U)] = std::byte{5};
+    long_string.insert(long_string.begin() + static_cast<std::ptrdiff_t>(at(13U)), 4U, std::byte{'a'});
+    Octets longer = empty;
+    longer.push_back(std::byte{0});
+
+    for (const Octets& invalid : {long_sequence, long_string, longer}) {
+        Small value = make_small();
+        EXPECT_EQ(decode_small(invalid, value), Status::kBadParameter);
+        EXPECT_EQ(encode_all(value), encode_all(make_small()));
+    }
+    Small value = make_small();
+    EXPECT_EQ(decode_small(empty, value), Status::kOk);
+    EXPECT_EQ(encode_all(value), empty);
+}
+
+TEST(LcmCodecTest, AnInvalidBooleanAfterOtherFieldsDoesNotChangeThem) {
+    verifies("SWR-LCM-004", Technique::kEquivalenceClasses, Polarity::kViolation);
+    lcm_sample::Reading sent{};
+    sent.a = 1;
+    Octets octets = encode_all(sent);
+    octets[octets.size() - 5U] = std::byte{2};  // the field before the last
+    lcm_sample::Reading value{};
+
+    EXPECT_EQ(decode_lcm({octets.data(), octets.size()}, value), Status::kBadParameter);
+    EXPECT_EQ(value.a, 0);
+}
+
+TEST(LcmCodecTest, AnInvalidEnumerationBehindAValidOneIsNotEncoded) {
+    verifies("SWR-LCM-003", Technique::kEquivalenceClasses, Polarity::kViolation);
+    lcm_sample::Robot invalid{};
+    invalid.modes[2] = static_cast<lcm_sample::Mode>(3);
+    Octets buffer(kLcmSizeMax<lcm_sample::Robot>);
+
+    EXPECT_EQ(encode_lcm(invalid, {buffer.data(), buffer.size()}).get_status(), Status::kBadParameter);
+}
+
+TEST(LcmCodecTest, TheShortestMessageLeavesTheOctetsAfterItUnchanged) {
+    verifies("SWR-LCM-003", Technique::kBoundaryValues, Polarity::kNominal);
+    Octets buffer(32U, std::byte{0xA5});
+
+    ASSERT_EQ(encode_lcm(lcm_codec_test::One{}, {buffer.data(), buffer.size()}).get_value(), at(1U));
+    EXPECT_EQ(Octets(buffer.begin() + static_cast<std::ptrdiff_t>(at(1U)), buffer.end()),
+              Octets(32U - at(1U), std::byte{0xA5}));
+}
+
+/// The writer itself, because the functions for users measure a message before they write it.
+TEST(LcmCodecTest, AWriterChecksItsBuffer) {
+    verifies("SWR-LCM-003", Technique::kBoundaryValues, Polarity::kViolation);
+    std::array<std::byte, 12U> buffer{};
+    const std::array<std::uint32_t, 13U> numbers{};
+
+    detail::LcmWriter whole({buffer.data(), buffer.size()});
+    EXPECT_TRUE(whole.run(numbers.data(), 2U));
+    EXPECT_TRUE(whole.run(numbers.data(), 1U));
+    EXPECT_EQ(whole.get_position(), buffer.size());
+    EXPECT_CHECK_FAILS(static_cast<void>(whole.run(numbers.data(), 1U)), "codec.hpp", 1);
+    detail::LcmWriter other({buffer.data(), buffer.size()});
+    EXPECT_CHECK_FAILS(static_cast<void>(other.run(numbers.data(), 4U)), "codec.hpp", 1);
+}
+
 TEST(LcmCodecTest, AMessageOfAnotherTypeIsRejectedByItsFingerprint) {
     verifies("SWR-LCM-004", Technique::kEquivalenceClasses, Polarity::kViolation);
     Small value{};
@@ -150,6 +288,8 @@ TEST(LcmCodecTest, AMessageOfAnotherTypeIsRejectedByItsFingerprint) {
     ASSERT_EQ(other.size(), encode_all(Small{}).size());
 
     EXPECT_EQ(decode_small(other, value), Status::kUnsupported);
+    EXPECT_EQ(decode_small(Octets(kFingerprintSize), value), Status::kUnsupported);
+    EXPECT_EQ(decode_small(Octets(kFingerprintSize - 1U), value), Status::kBadParameter);
 }
 
 TEST(LcmCodecTest, InvalidContentIsRejectedWithoutAChange) {
@@ -228,6 +368,36 @@ TEST(LcmTypeTest, TheTextNamesPackageStructFieldsLengthsAndLimits) {
         "}\n");
 }
 
+TEST(LcmTypeTest, LimitsOfAnyNumberOfDigitsAreInTheText) {
+    verifies("SWR-LCM-001", Technique::kBoundaryValues, Polarity::kNominal);
+    std::array<char, 512U> buffer{};
+    const std::size_t size =
+        write_lcm_text<lcm_codec_test::Limits>({buffer.data(), buffer.size()}).get_value();
+    const std::string text(buffer.data(), size);
+
+    EXPECT_NE(text.find("    string a;  // up to 9 characters\n"
+                        "    string b;  // up to 10 characters\n"
+                        "    string c;  // up to 99 characters\n"
+                        "    string d;  // up to 100 characters\n"
+                        "    string e;  // up to 1234 characters\n"),
+              std::string::npos)
+        << text;
+}
+
+TEST(LcmTypeTest, StructsInStructsComeBeforeThemAtEachDepth) {
+    verifies("SWR-LCM-001", Technique::kRequirementsBased, Polarity::kNominal);
+    struct NameList {
+        std::string names{};
+        void operator()(mamori::detail::TypeList<lcm_codec_test::One> /*type*/) { names += "One "; }
+        void operator()(mamori::detail::TypeList<lcm_codec_test::Middle> /*type*/) { names += "Middle "; }
+        void operator()(mamori::detail::TypeList<lcm_codec_test::Outer> /*type*/) { names += "Outer "; }
+    };
+    NameList list{};
+    for_each_lcm_struct<lcm_codec_test::Outer>(list);
+
+    EXPECT_EQ(list.names, "One Middle Outer ");
+}
+
 TEST(LcmTypeTest, TimedTypesOfRtMiddlewareHaveNames) {
     verifies("SWR-LCM-001", Technique::kRequirementsBased, Polarity::kNominal);
     std::array<char, 512U> buffer{};
@@ -254,7 +424,9 @@ TEST(LcmTypeTest, ATextThatDoesNotFitAndAClashOfNamesAreDetected) {
     std::array<char, 512U> text{};
     const std::size_t size = write_lcm_text<Small>({text.data(), text.size()}).get_value();
 
+    text[size - 1U] = '#';
     EXPECT_EQ(write_lcm_text<Small>({text.data(), size - 1U}).get_status(), Status::kOutOfResources);
+    EXPECT_EQ(text[size - 1U], '#');
     EXPECT_EQ(write_lcm_text<Small>({text.data(), size}).get_value(), size);
     static_assert(detail::has_name_clash<lcm_codec_test::Clash>({}));
     static_assert(!detail::has_name_clash<Small>({}));

@@ -17,7 +17,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -29,13 +28,16 @@
 #include "mamori/ports/lcm/link_components.hpp"
 #include "mamori/ports/lcm/log_player.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/free_descriptor.hpp"
 #include "support/sample_types.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/thread_policy.hpp"
 
 namespace mamori::ports::lcm {
 namespace {
 
 using lcm_sample::Cloud;
+using lcm_sample::find_free_descriptor;
 using Message = lcm_sample::CloudMessage;
 using Queue = MessageQueue<Message, 200U>;
 using namespace verification;
@@ -110,6 +112,20 @@ TEST_F(LcmLinkTest, ForeignTruncatedAndOversizedMessagesAreCounted) {
     EXPECT_EQ(queue_.take(message_), Status::kPreconditionNotMet);
 }
 
+TEST_F(LcmLinkTest, ALinkReceivesWhileItIsOpenAndClosesWhenItIsDestroyed) {
+    verifies("SWR-LCM-010", Technique::kStateTransition, Polarity::kNominal);
+    const int free = find_free_descriptor();
+    {
+        LcmLink link;
+        EXPECT_FALSE(link.is_open());
+        EXPECT_FALSE(link.is_receiving());
+        ASSERT_EQ(link.open("memq://"), Status::kOk);
+        EXPECT_TRUE(link.is_receiving());
+        EXPECT_NE(find_free_descriptor(), free);
+    }
+    EXPECT_EQ(find_free_descriptor(), free);
+}
+
 TEST_F(LcmLinkTest, AUrlThatLcmDoesNotOpenIsReported) {
     verifies("SWR-LCM-010", Technique::kEquivalenceClasses, Polarity::kViolation);
     for (const char* url : {"nonsense://x", "udpm", "file:///nonexistent/log?mode=r"}) {
@@ -132,7 +148,7 @@ TEST_F(LcmLinkTest, AnInvalidChannelAndOneTooManyAreRejected) {
         EXPECT_EQ(link_.receive(name, queue_), Status::kBadParameter) << name;
         EXPECT_EQ(link_.get_fault(), LinkFault::kChannel) << name;
     }
-    for (std::size_t i = 0U; i < LcmLink::kChannelsMax; ++i) {
+    for (int channel = 0; channel < 16; ++channel) {  // the advice names this number
         ASSERT_EQ(link_.receive(longest.c_str(), queue_), Status::kOk);
     }
     EXPECT_EQ(link_.receive("STATE", queue_), Status::kOutOfResources);
@@ -159,7 +175,8 @@ TEST_F(LcmLinkTest, ASenderWithAnInvalidChannelDoesNotOpenAndSendsNothing) {
 
 TEST_F(LcmLinkTest, ALogOfTheOfficialLibraryIsReplayed) {
     verifies("SWR-LCM-012", Technique::kBackToBack, Polarity::kNominal);
-    const std::string path = ::testing::TempDir() + "mamori_lcm_log_" + std::to_string(::getpid());
+    const lcm_sample::TemporaryFolder folder;
+    const std::string path = folder.get_path("log");
     ASSERT_EQ(link_.open(("file://" + path + "?mode=w").c_str()), Status::kOk);
     LcmSender sender(link_, "STATE");
     ASSERT_EQ(sender.open(), Status::kOk);
@@ -184,7 +201,6 @@ TEST_F(LcmLinkTest, ALogOfTheOfficialLibraryIsReplayed) {
         ASSERT_EQ(decode_protected<Message>(message_, value), Status::kOk);
         EXPECT_EQ(value.last.f, i);
     }
-    EXPECT_EQ(std::remove(path.c_str()), 0);
 }
 
 /// Multicast in a network namespace of a child process, which ends with it.

@@ -90,6 +90,19 @@ class LinkComponentsTest : public ::testing::Test {
     std::int64_t now_{0};
 };
 
+TEST_F(LinkComponentsTest, PortsHaveTheirNamesAndNewsBeginWithZeros) {
+    verifies("SWR-LCM-008", Technique::kInterface, Polarity::kNominal);
+    EXPECT_STREQ(sender_.in.get_name(), "in");
+    EXPECT_STREQ(receiver_.out.get_name(), "out");
+    EXPECT_STREQ(receiver_.news.get_name(), "news");
+    const LinkNews news{};
+    for (const std::uint32_t count : {news.used, news.lost, news.damaged, news.unordered, news.initial,
+                                      news.foreign, news.truncated, news.oversized, news.overwritten}) {
+        EXPECT_EQ(count, 0U);
+    }
+    EXPECT_FALSE(news.is_closed);
+}
+
 TEST_F(LinkComponentsTest, AValueArrivesOnceAndTheNewestOfSeveralCounts) {
     verifies("SWR-LCM-008", Technique::kRequirementsBased, Polarity::kNominal);
     send(7);

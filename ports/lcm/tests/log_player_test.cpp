@@ -4,35 +4,45 @@
 // replayed.
 #include "mamori/ports/lcm/log_player.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <pthread.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
-#include <cstdio>
+#include <atomic>
+#include <csignal>
 #include <fstream>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "mamori/kernel/payload/trace_hash.hpp"
 #include "mamori/ports/lcm/link_components.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/free_descriptor.hpp"
+#include "support/interrupted_call.hpp"
 #include "support/log_writer.hpp"
 #include "support/random_value.hpp"
 #include "support/sample_types.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mamori::ports::lcm {
 namespace {
 
 using lcm_sample::Cloud;
+using lcm_sample::find_free_descriptor;
 using Message = lcm_sample::CloudMessage;
 using Queue = MessageQueue<Message, 8U>;
 using namespace verification;
 
 class LogPlayerTest : public ::testing::Test {
   protected:
-    void TearDown() override { static_cast<void>(std::remove(path_.c_str())); }
-
     void add_event(std::int64_t time_us, const std::string& channel, const std::vector<std::byte>& message) {
         writer_.add_event(time_us, channel, message);
     }
@@ -48,7 +58,8 @@ class LogPlayerTest : public ::testing::Test {
         return octets;
     }
 
-    std::string path_{::testing::TempDir() + "mamori_log_player_" + std::to_string(::getpid())};
+    lcm_sample::TemporaryFolder folder_{};
+    std::string path_{folder_.get_path("log")};
     lcm_sample::LogWriter writer_{};
     std::string& log_{writer_.log};
     safety::E2eProtector<Message::Profile> protector_{Message::kChannel};
@@ -121,6 +132,22 @@ TEST_F(LogPlayerTest, ALoggedRunReplaysToTheSameOutputs) {
     EXPECT_GT(original.get_values(), kCycles / 2);
     EXPECT_EQ(replay.get_values(), original.get_values());
     EXPECT_EQ(replay.get_hash(), original.get_hash());
+}
+
+TEST_F(LogPlayerTest, APlayerWithoutALogIsAtItsBeginAndOneThatIsDestroyedClosesItsLog) {
+    verifies("SWR-LCM-012", Technique::kStateTransition, Polarity::kNominal);
+    add_event(0, "STATE", {});
+    std::ofstream(path_, std::ios::binary) << log_;
+    const int free = find_free_descriptor();
+    {
+        LogPlayer player;
+        EXPECT_EQ(player.get_offset(), 0U);
+        EXPECT_EQ(player.get_event_count(), 0U);
+        EXPECT_EQ(player.deliver_until(Instant{0}), Status::kPreconditionNotMet);
+        ASSERT_EQ(player.open(path_.c_str()), Status::kOk);
+        EXPECT_NE(find_free_descriptor(), free);
+    }
+    EXPECT_EQ(find_free_descriptor(), free);
 }
 
 TEST_F(LogPlayerTest, EventsAreDeliveredAtTheirInstantAndNotBefore) {
@@ -202,7 +229,8 @@ TEST_F(LogPlayerTest, LongNamesLargeMessagesAndRandomOctetsAreHandled) {
 
 TEST_F(LogPlayerTest, ALargeMessageIsOversizedFromOneOctetAboveTheBufferOn) {
     verifies("SWR-LCM-012", Technique::kBoundaryValues, Polarity::kViolation);
-    add_event(0, "STATE", std::vector<std::byte>(LogPlayer::kMessageMax));
+    constexpr std::size_t kLargest = 65536U;
+    add_event(0, "STATE", std::vector<std::byte>(kLargest));
     ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
     ASSERT_EQ(open(), Status::kOk);
     EXPECT_EQ(player_.deliver_until(Instant{0}), Status::kPreconditionNotMet);
@@ -210,7 +238,7 @@ TEST_F(LogPlayerTest, ALargeMessageIsOversizedFromOneOctetAboveTheBufferOn) {
     player_.close();
 
     log_.clear();
-    add_event(0, "STATE", std::vector<std::byte>(LogPlayer::kMessageMax + 1U));
+    add_event(0, "STATE", std::vector<std::byte>(kLargest + 1U));
     ASSERT_EQ(open(), Status::kOk);
     EXPECT_EQ(player_.deliver_until(Instant{0}), Status::kPreconditionNotMet);
     EXPECT_EQ(queue_.get_counts().foreign, 1U);
@@ -231,7 +259,7 @@ TEST_F(LogPlayerTest, ALargeMessageThatIsCutOrHasAnImpossibleSizeIsReported) {
 
 TEST_F(LogPlayerTest, MoreChannelsThanTheLimitAreRejected) {
     verifies("SWR-LCM-012", Technique::kBoundaryValues, Polarity::kViolation);
-    for (std::size_t i = 0U; i < LogPlayer::kChannelsMax; ++i) {
+    for (int channel = 0; channel < 16; ++channel) {
         ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
     }
     EXPECT_EQ(player_.receive("STATE", queue_), Status::kOutOfResources);
@@ -257,8 +285,52 @@ TEST_F(LogPlayerTest, OnlyLettersDigitsAndFourOtherCharactersAreAllowedInAChanne
         const std::string name{'a', static_cast<char>(code)};
         LogPlayer player;
         const bool is_allowed = allowed.find(static_cast<char>(code)) != std::string::npos;
-        EXPECT_EQ(player.receive(name.c_str(), queue_), is_allowed ? Status::kOk : Status::kBadParameter)
-            << code;
+        const Status expected = is_allowed ? Status::kOk : Status::kBadParameter;
+        EXPECT_EQ(player.receive(name.c_str(), queue_), expected) << code;
+        EXPECT_EQ(player.receive(name.c_str() + 1U, queue_), expected) << code;  // one character
+    }
+}
+
+TEST_F(LogPlayerTest, ALogThatArrivesInPartsBetweenSignalsIsReadWhole) {
+    verifies("SWR-LCM-012", Technique::kFaultInjection, Polarity::kNominal);
+    std::mt19937_64 random(9U);
+    const std::vector<std::byte> message = make_message(lcm_sample::make_random<Cloud>(random));
+    add_event(0, "STATE", message);
+    add_event(0, "STATE", std::vector<std::byte>(LogPlayer::kMessageMax + 100U));
+    add_event(0, "STATE", message);
+    ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
+    ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+    const int other_end = ::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    const lcm_sample::SignalScope scope(SIGUSR1);
+    std::atomic<bool> is_done{false};
+    // Each part waits until the part before it was read, so no call reads more than one.
+    std::thread logger([this, &is_done, reader = ::pthread_self()] {
+        const int file = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+        std::size_t size = 0U;
+        for (std::size_t done = 0U; done < log_.size() && !is_done; done += size) {
+            size = std::min<std::size_t>(done < 500U ? 7U : 3000U, log_.size() - done);
+            ::poll(nullptr, 0U, done < 500U ? 1 : 0);
+            EXPECT_EQ(::pthread_kill(reader, SIGUSR1), 0);
+            EXPECT_EQ(::write(file, log_.data() + done, size), static_cast<ssize_t>(size));
+            int waiting = 0;
+            EXPECT_TRUE(lcm_sample::wait_until(
+                [&] { return is_done || (::ioctl(file, FIONREAD, &waiting) == 0 && waiting == 0); }));
+        }
+        EXPECT_EQ(::close(file), 0);
+    });
+    const Status opened = player_.open(path_.c_str());
+    const Status delivered = player_.deliver_until(Instant{0});
+    is_done = true;
+    logger.join();
+    EXPECT_EQ(::close(other_end), 0);
+
+    EXPECT_EQ(opened, Status::kOk);
+    EXPECT_EQ(delivered, Status::kPreconditionNotMet);
+    EXPECT_EQ(queue_.get_counts().oversized, 1U);
+    for (int i = 0; i < 2; ++i) {
+        Span<const std::byte> received;
+        ASSERT_EQ(queue_.take(received), Status::kOk);
+        EXPECT_EQ(std::vector<std::byte>(received.begin(), received.end()), message);
     }
 }
 

@@ -9,16 +9,18 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "mamori/trace/verifies.hpp"
+#include "support/interrupted_call.hpp"
 #include "support/log_writer.hpp"
 #include "support/sample_types.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mamori::ports::lcm {
 namespace {
@@ -33,11 +35,7 @@ constexpr std::int64_t kMs = 1'000'000;
 class LogReplayTest : public ::testing::Test {
   protected:
     LogReplayTest() : file_(::open(text_path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)) {}
-    void TearDown() override {
-        static_cast<void>(::close(file_));
-        static_cast<void>(std::remove(text_path_.c_str()));
-        static_cast<void>(std::remove(path_.c_str()));
-    }
+    void TearDown() override { static_cast<void>(::close(file_)); }
     std::vector<std::byte> make_message() {
         std::vector<std::byte> octets(Message::kSizeMax);
         const Result<std::size_t> size =
@@ -55,7 +53,8 @@ class LogReplayTest : public ::testing::Test {
         return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     }
 
-    std::string path_{::testing::TempDir() + "mamori_log_replay_" + std::to_string(::getpid())};
+    lcm_sample::TemporaryFolder folder_{};
+    std::string path_{folder_.get_path("log")};
     std::string text_path_{path_ + ".text"};
     int file_;
     lcm_sample::LogWriter writer_{};
@@ -130,17 +129,28 @@ TEST_F(LogReplayTest, APauseOfMoreThanAnHourEndsTheReplay) {
     const std::size_t good = writer_.log.size();
     writer_.add_event(4'000'000'000, "STATE", make_message());
     ASSERT_EQ(open(), Status::kOk);
+    constexpr Duration kHour{3'600'000 * kMs};
     const Instant last{2000 * kMs};
 
     EXPECT_TRUE(sut_->advance(Instant{0}));
     EXPECT_TRUE(sut_->advance(last));
-    EXPECT_TRUE(sut_->advance(last + LogReplay::kPauseMax));
-    EXPECT_FALSE(sut_->advance(last + LogReplay::kPauseMax + Duration{1}));
+    EXPECT_TRUE(sut_->advance(last + kHour));
+    EXPECT_FALSE(sut_->advance(last + kHour + Duration{1}));
     EXPECT_EQ(sut_->report(4U), Status::kError);
 
     EXPECT_NE(read_text().find("no event for an hour before offset " + std::to_string(good)),
               std::string::npos)
         << read_text();
+}
+
+TEST_F(LogReplayTest, ThePauseBeginsAtTheLastEventAlsoIfTheFirstFrameIsLate) {
+    verifies("SWR-LCM-014", Technique::kBoundaryValues, Polarity::kNominal);
+    writer_.add_event(0, "STATE", make_message());
+    writer_.add_event(8'000'000'000, "STATE", make_message());
+    ASSERT_EQ(open(), Status::kOk);
+
+    EXPECT_TRUE(sut_->advance(Instant{0} + LogReplay::kPauseMax + Duration{1}));
+    EXPECT_EQ(sut_->report(1U), Status::kOk);
 }
 
 TEST_F(LogReplayTest, WrongArgumentsAreRejectedInOneLine) {
@@ -157,6 +167,31 @@ TEST_F(LogReplayTest, WrongArgumentsAreRejectedInOneLine) {
               "usage: program --replay LOG\nusage: program --replay LOG\nusage: program --replay LOG\n"
               "usage: PROGRAM --replay LOG\n/nonexistent/log: cannot be read, or is not a log of lcm-logger; "
               "specify the log\n");
+}
+
+TEST_F(LogReplayTest, ALineHasUpTo1024CharactersAndTheLargestNumbers) {
+    verifies("SWR-LCM-014", Technique::kBoundaryValues, Polarity::kViolation);
+    const std::string program(2000U, 'p');
+    const std::array<const char*, 1U> arguments{program.c_str()};
+    EXPECT_EQ(sut_->open(channels_, true, 1, arguments.data()), Status::kBadParameter);
+    EXPECT_EQ(read_text(), "usage: " + std::string(1017U, 'p'));
+    ASSERT_EQ(::ftruncate(file_, 0), 0);
+    ASSERT_EQ(::lseek(file_, 0, SEEK_SET), 0);
+
+    constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max();
+    EXPECT_EQ(sut_->report(kLargest), Status::kOk);
+    sut_->report_hash(0U, kLargest);
+    EXPECT_EQ(read_text(), "events 0, frames 18446744073709551615\ncore 0: trace hash ffffffffffffffff\n");
+}
+
+TEST_F(LogReplayTest, AfterARefusedPartOfALineNothingMoreOfItIsWritten) {
+    verifies("SWR-LCM-014", Technique::kFaultInjection, Polarity::kViolation);
+    {
+        const lcm_sample::OneOctetScope scope;
+        sut_->report_failure();
+    }
+    EXPECT_EQ(lcm_sample::SignalScope::count, 1);  // the second part
+    EXPECT_EQ(read_text(), "t");
 }
 
 TEST_F(LogReplayTest, ATableWithoutHashIsRejected) {

@@ -60,6 +60,7 @@ TEST_F(MessageQueueTest, ForeignTruncatedAndOversizedMessagesAreCountedAndDoNotR
     verifies("SWR-LCM-006", Technique::kBoundaryValues, Polarity::kViolation);
     put(make_message(Message::kSizeMin, Message::kFingerprint ^ 1U));
     put(make_message(Message::kSizeMax + 1U, ~Message::kFingerprint));
+    put(make_message(kFingerprintSize, ~Message::kFingerprint));
     put({});
     put_good(kFingerprintSize - 1U);
     put_good(kFingerprintSize);
@@ -69,7 +70,7 @@ TEST_F(MessageQueueTest, ForeignTruncatedAndOversizedMessagesAreCountedAndDoNotR
     sut_.put_damaged();
 
     const ReceptionCounts counts = sut_.get_counts();
-    EXPECT_EQ(counts.foreign, 2U);
+    EXPECT_EQ(counts.foreign, 3U);
     EXPECT_EQ(counts.truncated, 4U);
     EXPECT_EQ(counts.oversized, 2U);
     EXPECT_EQ(counts.damaged, 1U);

@@ -100,6 +100,9 @@ TEST_F(ProtectedMessageTest, AMessageThatIsTooLongForTheChannelIsReported) {
     Cloud longer{};
     ASSERT_EQ(longer.octets.resize(1U), Status::kOk);
     EXPECT_EQ(encode_protected<Message>(longer, protector, buffer).get_status(), Status::kBadParameter);
+    for (std::size_t i = kFingerprintSize; i < Message::kBodyAt; ++i) {
+        EXPECT_EQ(buffer_[i], std::byte{0}) << i;  // the header of the message before it is gone
+    }
 }
 
 }  // namespace

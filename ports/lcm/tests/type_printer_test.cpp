@@ -8,12 +8,12 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdio>
 #include <string>
 #include <string_view>
 
 #include "mamori/trace/verifies.hpp"
 #include "support/sample_types.hpp"
+#include "support/text_file.hpp"
 
 namespace mamori::ports::lcm {
 namespace {
@@ -22,23 +22,14 @@ using namespace verification;
 
 class TypePrinterTest : public ::testing::Test {
   protected:
-    void SetUp() override { ASSERT_NE(file_, nullptr); }
-    void TearDown() override { static_cast<void>(std::fclose(file_)); }
-    int get_file() const { return ::fileno(file_); }
-    std::string read() const {
-        std::array<char, 65536U> text{};
-        const ssize_t size = ::pread(get_file(), text.data(), text.size(), 0);
-        return {text.data(), size > 0 ? static_cast<std::size_t>(size) : 0U};
-    }
+    void SetUp() override { ASSERT_TRUE(file_.is_open()); }
+    int get_file() const { return file_.get_file(); }
+    std::string read() const { return file_.read(); }
     static int count(const std::string& text, const std::string& part) {
-        int found = 0;
-        for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1U)) {
-            ++found;
-        }
-        return found;
+        return lcm_sample::count_parts(text, part);
     }
 
-    std::FILE* file_{std::tmpfile()};
+    lcm_sample::TextFile file_;
 };
 
 TEST_F(TypePrinterTest, EachStructIsPrintedOnceAfterTheStructsInIt) {
@@ -50,6 +41,7 @@ TEST_F(TypePrinterTest, EachStructIsPrintedOnceAfterTheStructsInIt) {
     EXPECT_EQ(printer.get_status(), Status::kOk);
 
     const std::string text = read();
+    EXPECT_EQ(text.rfind("// Made by Mamori from the field list of lcm_sample::inner::Point.", 0U), 0U);
     for (const char* name : {"struct Point {", "struct Robot {", "struct Reading {", "struct Cloud {"}) {
         EXPECT_EQ(count(text, name), 1) << name;
     }
