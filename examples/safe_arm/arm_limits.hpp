@@ -117,14 +117,14 @@ inline constexpr double kStopDeviationRad = 0.03;
 /// Feedback of a switch-off path may contradict its command for this long.
 inline constexpr mamori::Duration kPathTime = 20_ms;
 /// Brake test: all drives push with their torque limit against the closed brakes, first forwards, then
-/// backwards: ramp, then hold. A sound brake (1.5 times the limit) yields up to 2 mrad.
+/// backwards: ramp, then hold. A brake slips beyond 2 mrad.
 inline constexpr mamori::Duration kBrakeTestRamp = 20_ms;
 inline constexpr mamori::Duration kBrakeTestHold = 30_ms;
 inline constexpr double kBrakeTestTravelRad = 0.0025;
 /// A start needs a passed brake test that is not older than this; a longer operation is stopped.
 inline constexpr mamori::Duration kBrakeTestInterval{std::int64_t{8} * 3600 * 1'000'000'000};
 /// The self test begins with this many good frames in a row, and not before this time: links between
-/// processes need a few frames to start. It ends within kSelfTestTime.
+/// processes need a few frames to start. They come within kSelfTestTime.
 inline constexpr mamori::Duration kQuietTime = 40_ms;
 inline constexpr std::uint32_t kSelfTestFrames = 20U;
 inline constexpr mamori::Duration kSelfTestTime = 500_ms;

@@ -73,11 +73,13 @@ JointVector DriveGate::calc_torque(const StopCommand& decision) noexcept {
 }
 
 Status DriveGate::on_deactivated(ContextHandle) noexcept {
+    stop_loop_.release();
     outputs_ = {};
     return Status::kOk;
 }
 
 Status DriveGate::on_aborting(ContextHandle) noexcept {
+    stop_loop_.release();
     outputs_ = {};
     return Status::kOk;
 }

@@ -62,7 +62,7 @@ struct StopCommand {
     mamori::safety::SafeState state{mamori::safety::SafeState::kSelfTest};
     bool torque_enable{false};
     bool brake_release{false};
-    bool stop_requested{false};  ///< controlled stop along the path (SS1, SS2)
+    bool stop_requested{false};  ///< controlled stop or hold (SS1, SS2, SOS), made by the gate
     bool relay_close{false};     ///< second switch-off path
     TorqueSource torque_source{TorqueSource::kController};
     double brake_test_share{0.0};  ///< of the torque limit, -1 .. 1

@@ -26,7 +26,7 @@ class StopLoop final {
             rate_ = 1.0;
             setpoint_rad_ = measured.position_rad;
             speed_rad_s_ = measured.velocity_rad_s;
-            torque_nm_ = last_torque_nm;
+            torque_nm_ = limit(last_torque_nm);
         }
         JointVector result{};
         for (std::size_t j = 0U; j < kArmJointCount; ++j) {
@@ -46,6 +46,18 @@ class StopLoop final {
     const JointVector& get_setpoint() const noexcept { return setpoint_rad_; }
 
   private:
+    /// The last torque came from the controller. A wrong one may move the arm by half of the tolerated
+    /// distance; gravity needs less.
+    static JointVector limit(JointVector torque_nm) noexcept {
+        for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+            const double limit_nm = 0.5 * kStopDeviationRad * kStopStiffness[j];
+            if (!mamori::safety::is_within(torque_nm[j], limit_nm)) {
+                torque_nm[j] = torque_nm[j] > 0.0 ? limit_nm : -limit_nm;
+            }
+        }
+        return torque_nm;
+    }
+
     JointVector setpoint_rad_{};
     JointVector speed_rad_s_{};  ///< at the begin
     JointVector torque_nm_{};    ///< before the begin

@@ -152,10 +152,11 @@ void apply_plant_faults(const FaultPlan& plan, Instant now, PlantFaults& faults)
     } else {
         apply_to_switches(plan.kind, plan.joint, active, faults);
     }
-    if (plan.latent == FaultKind::kBrakeFade) {
+    const bool is_latent_active = now >= Instant{} + plan.latent_at;
+    if (plan.latent == FaultKind::kBrakeFade && is_latent_active) {
         faults.brake_fade[plan.latent_joint] = kLatentFade;
     }
-    apply_to_switches(plan.latent, plan.latent_joint, now >= Instant{} + plan.latent_at, faults);
+    apply_to_switches(plan.latent, plan.latent_joint, is_latent_active, faults);
 }
 
 }  // namespace mamori::sim

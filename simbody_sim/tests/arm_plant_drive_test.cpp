@@ -190,10 +190,14 @@ TEST_F(ArmPlantDriveTest, ARelayThatIsStuckStaysClosedOnceItIsClosed) {
 
     safety::ArmOutputs open = hold();
     open.relay_close = false;
-    sut_.set_watchdog_expired(true);
     ASSERT_EQ(sut_.step(open, 40_ms), Status::kOk);
     EXPECT_TRUE(sut_.sample().relay_closed);
     EXPECT_TRUE(sut_.sample().torque_enabled);
+    sut_.set_watchdog_expired(true);
+    ASSERT_EQ(sut_.step(open, 40_ms), Status::kOk);
+    EXPECT_TRUE(sut_.sample().relay_closed);
+    EXPECT_FALSE(sut_.sample().torque_enabled) << "the watchdog acts on safe torque off as well";
+    EXPECT_TRUE(sut_.sample().brake_closed[1]);
 }
 
 TEST_F(ArmPlantDriveTest, DrivesThatIgnoreSafeTorqueOffLoseTheirTorqueByTheRelay) {

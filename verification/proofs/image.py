@@ -54,7 +54,7 @@ def find_sources(root: Path, toolchain: Toolchain) -> list[str]:
 
 
 def _list_included(paths: Iterable[Path]) -> set[str]:
-    """Stems of the headers beside them that the files include."""
+    """Stems of the headers that the files include by name."""
     return {name for path in paths if path.exists() for name in INCLUDE.findall(path.read_text(encoding="utf-8"))}
 
 

@@ -214,6 +214,12 @@ TEST_F(SafetySupervisorTest, ABrakeTestThatIsTooOldStopsTheArmUntilThePassOfANew
     EXPECT_EQ(step().state, SafeState::kStandby) << "the clock jumps here; what runs in each frame expires";
     EXPECT_EQ(step().state, SafeState::kSafe);
     EXPECT_TRUE(safety_.get_faults().is_latched(to_index(ArmFault::kBrakeTestOld)));
+    step();
+    reading_.reset_button = true;
+    EXPECT_EQ(step().state, SafeState::kSelfTest);
+    step_until(SafeState::kStandby, 400);
+    EXPECT_EQ(sut_.get_state(), SafeState::kStandby) << "tested anew";
+    EXPECT_EQ(step().state, SafeState::kStandby);
 }
 
 TEST_F(SafetySupervisorTest, ControlledStopThatIsIgnoredBecomesTorqueOff) {
@@ -351,6 +357,18 @@ TEST_F(SafetySupervisorTest, TorqueThatCannotBeSwitchedOffIsLeftToTheWatchdog) {
 
     EXPECT_EQ(step().state, SafeState::kLockedOut);
     EXPECT_EQ(watchdog_.services, before);
+}
+
+TEST_F(SafetySupervisorTest, AStopThatTheGateDoesNotMakeIsFoundAndLosesItsTorque) {
+    verifies("SWR-SAF-028", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    state_.is_standing = false;
+    is_gate_running_ = false;  // what it gave to the drives stays: torque of the controller
+    feed(sut_.drive, DriveCommand{{}, true, true, true, TorqueSource::kController, {}});
+    state_.faults = to_bit(ArmFault::kEncoderImplausible);
+    step_until(SafeState::kSafe, 20);
+    EXPECT_EQ(sut_.get_state(), SafeState::kSafe);
+    EXPECT_TRUE(safety_.get_faults().is_latched(to_index(ArmFault::kReactionLate)));
 }
 
 }  // namespace

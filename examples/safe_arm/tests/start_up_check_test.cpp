@@ -143,6 +143,22 @@ TEST_F(StartUpCheckTest, APathMayAnswerUpToItsTime) {
               SelfTestStatus::kPassed);
 }
 
+TEST_F(StartUpCheckTest, APathThatAnswersAfterItsTimeFails) {
+    verifies("SWR-SAF-026", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const StartUpStep step : {StartUpStep::kRelayOpens, StartUpStep::kTorqueOff}) {
+        sut_.begin(now_);
+        Instant began{};
+        expect_failed(step, [&] {
+            if (sut_.get_step() == step) {
+                began = began == Instant{} ? now_ - kFrame : began;
+                const bool is_late = now_ - began <= kPathTime;
+                facts_.reading.torque_enabled = is_late;
+                facts_.reading.relay_closed = is_late || step == StartUpStep::kTorqueOff;
+            }
+        });
+    }
+}
+
 TEST_F(StartUpCheckTest, AFaultOrAnOpenBrakeDuringTheTestsFails) {
     verifies("SWR-SAF-026", Technique::kFaultInjection, Polarity::kViolation);
     for (const bool is_brake : {false, true}) {

@@ -28,10 +28,11 @@ TEST(StopLoopTest, AMovingArmIsBroughtToRestOnItsRamp) {
         state.position_rad[1] += state.velocity_rad_s[1] * kFrameS;
         ASSERT_LT(std::fabs(state.position_rad[1] - sut.get_setpoint()[1]), 0.5 * kStopDeviationRad) << frame;
         ASSERT_LT(state.velocity_rad_s[1], before + 0.02) << frame;
-        before = 0.5;
+        before = state.velocity_rad_s[1];
     }
     EXPECT_NEAR(sut.get_setpoint()[1], 0.5 * 0.5 * kRampS, 1e-3) << "uniform deceleration over 0.15 s";
     EXPECT_NEAR(state.velocity_rad_s[1], 0.0, 1e-3);
+    EXPECT_NEAR(state.position_rad[1], sut.get_setpoint()[1], 1e-3);
     EXPECT_EQ(sut.get_setpoint()[0], 0.0);
 }
 
@@ -58,6 +59,19 @@ TEST(StopLoopTest, AReleaseEndsTheHold) {
     state.position_rad[0] = 2.0;
     EXPECT_EQ(sut.step(state, {}), JointVector{}) << "a new place, and no torque before it";
     EXPECT_EQ(sut.get_setpoint()[0], 2.0);
+}
+
+TEST(StopLoopTest, AWrongLastTorqueMovesTheArmByHalfOfTheToleratedDistance) {
+    verifies("SWR-SAF-025", Technique::kFaultInjection, Polarity::kViolation);
+    for (const double sign : {1.0, -1.0}) {
+        StopLoop sut;
+        JointVector last_nm{};
+        last_nm.fill(sign * 1.0e6);
+        const JointVector torque_nm = sut.step({}, last_nm);
+        for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+            EXPECT_NEAR(torque_nm[j] / kStopStiffness[j], sign * 0.5 * kStopDeviationRad, 1e-12) << j;
+        }
+    }
 }
 
 }  // namespace

@@ -190,7 +190,7 @@ bool SafetyCycle::is_sto_unconfirmed(bool has_torque, Instant now) noexcept {
 }
 
 /// The outputs of the last frame show whether a reaction has begun. Each latched fault keeps its own time: a
-/// worse one that comes later gives no more of it.
+/// worse one that comes later gives no additional one.
 void SafetyCycle::measure_reaction(const ReactionDemand& demand, const StopOutputs& applied,
                                    Instant now) noexcept {
     is_reaction_late_ = false;

@@ -37,7 +37,8 @@ FAULT_HELP = """KIND[,key=value...]; default: none
   message_late      magnitude=SECONDS, above 0 to 10
   message_lost, power_loss, controller_hang, supervisor_hang, processor_stops, none
 Each kind except none takes at=SECONDS of the motion, before its end, and duration=SECONDS; default: to the end.
-A second fault shows nothing by itself: latent=brake_stuck_open:JOINT|brake_fade:JOINT|brakes_stuck_open|sto_ignored|relay_stuck"""
+A second fault that shows nothing by itself: latent=brake_stuck_open:JOINT,
+brake_fade:JOINT, brakes_stuck_open, sto_ignored or relay_stuck"""
 KEYS = ("joint", "channel", "magnitude", "at", "duration", "latent")
 REJECTED_INPUT = 2
 """Exit status of the program for rejected input."""
@@ -94,6 +95,7 @@ def select_case(plan: Plan, motion: Motion, fault: str | None) -> Selection:
     if not scenarios:
         raise InputError(f"run: --fault: unknown kind '{kind}'; known: {_join(each.fault.kind for each in known)}")
     given = _read_pairs(pairs, scenarios[0], motion)
+    scenarios = [each for each in scenarios if each.fault.latent == given.get("latent", "")] or scenarios
     # Scenarios in the order of the plan, except that a scenario with all given values comes first.
     scenario = max(scenarios, key=lambda each: sum(getattr(each.fault, _FIELDS[key]) == value
                                                    for key, value in given.items() if key in _FIELDS))  # fmt: skip
@@ -174,7 +176,7 @@ def summarise(result: CaseResult) -> list[str]:
     travel = max(physics.get("stop_travel_rad", []), default=None)
     rows = [
         ("case", case.title),
-        ("fault", "none" if case.fault is None else case.fault.to_text()),
+        ("fault", describe_faults(case)),
         ("detected", _show_event(run.get("detected_fault"), run.get("detected_at_s"), begin)),
         ("reaction", _show_event(run.get("reaction"), run.get("reacted_at_s"), begin)),
         ("allowed", "no reaction" if case.expected.within_s is None

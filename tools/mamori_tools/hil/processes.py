@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
 
+from mamori_tools.campaign.arm.judge import describe_faults
 from mamori_tools.hil.network import URL, has_joined, wait_until
 from mamori_tools.hil.scenario import HilCase
 from mamori_trace.base.errors import InputError, WorkError
@@ -63,8 +64,8 @@ class Programs:
             return shlex.split(self.own[name])
         command = [str(self.get_shipped(name)), "--model", str(self.model), "--motion", str(self.motion), "--out", str(out),
                    "--frames", str(case.frames), "--seed", str(case.arm.seed)]  # fmt: skip
-        if case.arm.fault is not None:
-            command += ["--fault", case.arm.fault.to_text()]
+        if case.arm.fault is not None or case.arm.latent:
+            command += ["--fault", describe_faults(case.arm)]
         if case.error:
             command += ["--link", case.link, "--error", case.error]
         return command

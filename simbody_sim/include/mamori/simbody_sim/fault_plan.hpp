@@ -51,7 +51,7 @@ enum class FaultSpan : std::uint8_t {
 /// Length of a fault that happens once.
 inline constexpr Duration kOnceLength{1000000};
 
-/// Fraction of its torque that a latent brake_fade takes from the brake, since the start of the run.
+/// Fraction of its torque that a latent brake_fade takes from the brake.
 inline constexpr double kLatentFade = 0.5;
 
 /// Parts that a kind does not use keep their default.

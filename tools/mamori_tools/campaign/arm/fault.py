@@ -127,9 +127,12 @@ def read_fault(node: Node) -> FaultSpec:
 
 def _read_latent(node: Node) -> str:
     text = node.as_text()
-    kind = text.partition(":")[0]
+    kind, _, joint = text.partition(":")
     if kind not in LATENT_KINDS:
         raise node.error(f"unknown latent fault '{kind}'; {nearest_names(kind, LATENT_KINDS)}")
+    if KINDS[kind].joint != joint.isdecimal():
+        need = f"needs a joint, for example {kind}:2" if KINDS[kind].joint else "takes no joint"
+        raise node.error(f"'{text}': {kind} {need}")
     return text
 
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The component that decides: supervises, latches faults, chooses the severest reaction, steps the
-/// safe-state machine, commands its outputs and services the watchdog on proven health, always in this order. A
-/// machine derives its supervisor and adds only its inputs and outputs.
+/// safe-state machine, commands its outputs and services the watchdog on proven health, always in this order.
+/// A machine derives its supervisor and adds only its inputs and outputs.
 ///
 /// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009
 /// Design:   docs/design/safety_cycle.md#order
@@ -78,10 +78,10 @@ class SafetyCycle : public Component {
     virtual CycleInputs read_inputs(Instant now) noexcept = 0;
     /// @param[in] is_first first cycle of the self test, at power-up and after a reset. Only called there.
     virtual SelfTestStatus step_self_test(bool is_first, Instant now) noexcept = 0;
-    /// @return true for torque against the closed brakes in this frame of the self test. Only called there.
-    virtual bool wants_test_torque() noexcept { return false; }
     /// @return true while the fault is present.
     virtual bool is_present(FaultIndex fault) noexcept = 0;
+    /// @return true for torque against the closed brakes in this frame of the self test. Only called there.
+    virtual bool wants_test_torque() noexcept { return false; }
     /// Writes the commands. @param[in] state of the machine.
     virtual void command(SafeState state, const StopOutputs& outputs) noexcept = 0;
     /// @}

@@ -3,9 +3,9 @@
 /// States of a guarded machine, the events that move it, and the one table of its transitions. The design
 /// note shows the same table as a diagram; a test compares the two.
 ///
-/// @satisfies SWR-FSM-001, SWR-FSM-002, SWR-FSM-003, SWR-FSM-037      Design:
-/// docs/design/safe_state.md#states Source:   IEC 61800-5-2 (STO, SS1, SS2, SOS), IEC 60204-1 (stop
-/// categories 0, 1, 2)
+/// @satisfies SWR-FSM-001, SWR-FSM-002, SWR-FSM-003, SWR-FSM-037
+/// Design:   docs/design/safe_state.md#states
+/// Source:   IEC 61800-5-2 (STO, SS1, SS2, SOS), IEC 60204-1 (stop categories 0, 1, 2)
 #ifndef MAMORI_SAFETY_SAFE_STATE_HPP
 #define MAMORI_SAFETY_SAFE_STATE_HPP
 
