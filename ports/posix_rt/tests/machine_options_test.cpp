@@ -114,6 +114,8 @@ TEST(MachineOptionsTest, OptionAtTheEndOfItsRangeIsNotRefused) {
     static_cast<void>(std::remove(path.c_str()));
 }
 
+Idle g_unstarted;
+constexpr auto kUnstarted = system(frame(10_ms), window("idle", 2_ms, 4_ms, budget(4_ms), run(g_unstarted)));
 Idle g_stopped;
 constexpr auto kStopped = system(frame(10_ms), window("idle", 2_ms, 4_ms, budget(4_ms), run(g_stopped)));
 Idle g_first;
@@ -189,6 +191,19 @@ TEST(MachineOptionsTest, EventLogOfAnotherRecorderEndsTheRunAndReleasesTheFile) 
     MappedFile file;
     EXPECT_EQ(file.open(path.c_str(), calc_recorder_file_size(4U)), Status::kOk);
     static_cast<void>(std::remove(path.c_str()));
+}
+
+TEST(MachineOptionsTest, RunnerThatCannotBeStartedEndsTheRunWithClosedOutputs) {
+    verifies("SWR-PRT-070", Technique::kFaultInjection, Polarity::kViolation);
+    MachineOptions options = make_options();
+    options.runner_stack = std::size_t{1U} << 60U;  // larger than the address space
+    const auto sut = std::make_unique<Machine<kUnstarted>>(options);
+    g_closed = 0;
+
+    EXPECT_NE(sut->run(1U), Status::kOk);
+    EXPECT_EQ(sut->get_report().failed_step, MachineStep::kRunnerThreads);
+    EXPECT_EQ(sut->get_report().openings.opened, 0U);
+    EXPECT_EQ(g_closed, 1);
 }
 
 TEST(MachineOptionsTest, EachStepHasASentence) {
