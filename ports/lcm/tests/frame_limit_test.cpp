@@ -5,14 +5,22 @@
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <netinet/in.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <set>
 #include <string>
@@ -24,6 +32,7 @@
 #include "support/free_descriptor.hpp"
 #include "support/interrupted_call.hpp"
 #include "support/sample_types.hpp"
+#include "support/zero_descriptor.hpp"
 
 namespace lcm_limit {
 
@@ -145,6 +154,88 @@ TEST_F(FrameLimitTest, ATransportThatIsClosedDestroyedOrNotOpenedReleasesItsDesc
     EXPECT_EQ(sender_.open_udp("127.0.0.1", 7000U), Status::kOk);
 }
 
+TEST_F(FrameLimitTest, ASenderWorksWithDescriptorZero) {
+    verifies("SWR-LCM-010", Technique::kBoundaryValues, Polarity::kNominal);
+    const Octets message = make_message(1U);
+    const lcm_sample::ZeroDescriptorScope scope;
+    ASSERT_EQ(sender_.open_udp("127.0.0.1", 7000U), Status::kOk);
+    EXPECT_NE(find_free_descriptor(), 0);
+    EXPECT_EQ(sender_.open_udp("127.0.0.1", 7000U), Status::kPreconditionNotMet);
+    EXPECT_EQ(sender_.open_serial("/dev/null", 9600U), Status::kPreconditionNotMet);
+    EXPECT_EQ(sender_.send({message.data(), message.size()}), Status::kOk);
+    sender_.close();
+    EXPECT_EQ(find_free_descriptor(), 0);
+    EXPECT_EQ(sender_.open_serial("/dev/null", 9600U), Status::kError);
+    EXPECT_EQ(sender_.get_fault(), LinkFault::kLine);  // it was opened
+}
+
+TEST_F(FrameLimitTest, AReceiverWorksWithDescriptorZero) {
+    verifies("SWR-LCM-010", Technique::kBoundaryValues, Polarity::kNominal);
+    const lcm_sample::ZeroDescriptorScope scope;
+    ASSERT_EQ(receiver_.open_udp("127.0.0.1", 0U), Status::kOk);
+    EXPECT_EQ(receiver_.open_udp("127.0.0.1", 0U), Status::kPreconditionNotMet);
+    EXPECT_EQ(receiver_.open_serial("/dev/null", 9600U), Status::kPreconditionNotMet);
+    send({make_frame(make_message(1U))});
+    Span<const std::byte> received;
+    EXPECT_TRUE(wait_until([&] { return queue_.take(received) == Status::kOk; }));
+    receiver_.close();
+    EXPECT_EQ(find_free_descriptor(), 0);
+}
+
+TEST_F(FrameLimitTest, EachEventOfAStreamIsCountedOnceByItsCause) {
+    verifies("SWR-LCM-009", Technique::kEquivalenceClasses, Polarity::kViolation);
+    ASSERT_EQ(receiver_.open_udp("127.0.0.1", 0U), Status::kOk);
+    const Octets oversized = make_frame(Octets(3000U, std::byte{0x5A}));
+    const auto half = oversized.begin() + 1500;
+    send({{oversized.begin(), half}, {half, oversized.end()}, make_frame(make_message(1U))});
+
+    Span<const std::byte> received;
+    ASSERT_TRUE(wait_until([&] { return queue_.take(received) == Status::kOk; }));
+    const ReceptionCounts counts = queue_.get_counts();
+    EXPECT_EQ(counts.accepted, 1U);
+    EXPECT_EQ(counts.oversized, 1U);
+    EXPECT_EQ(counts.damaged + counts.truncated + counts.foreign, 0U);
+}
+
+/// From now on, this process starts no thread. @return false: not supported on this system.
+bool refuse_threads() {
+    constexpr auto kNumber = static_cast<std::uint32_t>(offsetof(seccomp_data, nr));
+    std::array<sock_filter, 5U> steps{{
+        {BPF_LD | BPF_W | BPF_ABS, 0U, 0U, kNumber},
+        {BPF_JMP | BPF_JEQ | BPF_K, 1U, 0U, SYS_clone},
+        {BPF_JMP | BPF_JEQ | BPF_K, 0U, 1U, SYS_clone3},
+        {BPF_RET | BPF_K, 0U, 0U, SECCOMP_RET_ERRNO | EAGAIN},
+        {BPF_RET | BPF_K, 0U, 0U, SECCOMP_RET_ALLOW},
+    }};
+    const sock_fprog program{static_cast<unsigned short>(steps.size()), steps.data()};
+    return ::prctl(PR_SET_NO_NEW_PRIVS, 1UL, 0UL, 0UL, 0UL) == 0 &&
+           ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+}
+
+TEST_F(FrameLimitTest, AProcessThatStartsNoThreadIsToldAndKeepsNoDescriptor) {
+    verifies("SWR-LCM-010", Technique::kFaultInjection, Polarity::kViolation);
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        if (!refuse_threads()) {
+            ::_exit(2);
+        }
+        const int free = find_free_descriptor();
+        EXPECT_EQ(receiver_.open_udp("127.0.0.1", 0U), Status::kError);
+        EXPECT_EQ(receiver_.get_fault(), LinkFault::kThread);
+        EXPECT_EQ(find_free_descriptor(), free);
+        receiver_.close();
+        ::_exit(HasFailure() ? 1 : 0);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    if (WEXITSTATUS(status) == 2) {
+        GTEST_SKIP() << "verdict=not-shown: a system without filters of system calls";
+    }
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
 TEST_F(FrameLimitTest, ProgramsThatTheProcessStartsDoNotInheritATransport) {
     verifies("SWR-LCM-010", Technique::kErrorGuessing, Polarity::kViolation);
     const int first = find_free_descriptor();
@@ -184,11 +275,16 @@ class SignalInbox final : public MessageInbox {
 
 TEST_F(FrameLimitTest, SignalsOfTheProcessGoToOtherThreads) {
     verifies("SWR-LCM-007", Technique::kRequirementsBased, Polarity::kNominal);
-    const int before = SignalInbox::count_blocked();
+    sigset_t one;
+    sigset_t before;
+    ASSERT_EQ(::sigemptyset(&one), 0);
+    ASSERT_EQ(::sigaddset(&one, SIGUSR2), 0);
+    ASSERT_EQ(::pthread_sigmask(SIG_SETMASK, &one, &before), 0);
     SignalInbox inbox;
     FrameReceiverFor<LargeMessage> receiver(inbox);
     ASSERT_EQ(receiver.open_udp("127.0.0.1", 0U), Status::kOk);
-    EXPECT_EQ(SignalInbox::count_blocked(), before);
+    EXPECT_EQ(SignalInbox::count_blocked(), 1);
+    ASSERT_EQ(::pthread_sigmask(SIG_SETMASK, &before, nullptr), 0);
     ASSERT_EQ(sender_.open_udp("127.0.0.1", receiver.get_port()), Status::kOk);
     const Octets message = make_message(1U);
 

@@ -9,49 +9,48 @@
 #include <net/route.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <pthread.h>
 #include <sched.h>
 #include <sys/ioctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <functional>
 #include <iostream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "mamori/ports/lcm/link_components.hpp"
 #include "mamori/ports/lcm/log_player.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "support/free_descriptor.hpp"
+#include "support/interrupted_call.hpp"
 #include "support/sample_types.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thread_policy.hpp"
+#include "support/zero_descriptor.hpp"
 
 namespace mamori::ports::lcm {
 namespace {
 
 using lcm_sample::Cloud;
 using lcm_sample::find_free_descriptor;
+using lcm_sample::wait_until;
 using Message = lcm_sample::CloudMessage;
 using Queue = MessageQueue<Message, 200U>;
 using namespace verification;
 
 constexpr const char* kMulticast = "udpm://239.255.76.67:7667?ttl=0";
-
-bool wait_until(const std::function<bool()>& condition) {
-    bool holds = condition();
-    for (int i = 0; i < 10'000 && !holds; ++i) {
-        ::poll(nullptr, 0U, 1);
-        holds = condition();
-    }
-    return holds;
-}
 
 class LcmLinkTest : public ::testing::Test {
   protected:
@@ -126,12 +125,44 @@ TEST_F(LcmLinkTest, ALinkReceivesWhileItIsOpenAndClosesWhenItIsDestroyed) {
     EXPECT_EQ(find_free_descriptor(), free);
 }
 
+TEST_F(LcmLinkTest, EachChannelOfALinkWithDescriptorZeroHasItsQueue) {
+    verifies("SWR-LCM-011", Technique::kBoundaryValues, Polarity::kNominal);
+    const lcm_sample::ZeroDescriptorScope scope;
+    Queue other;
+    ASSERT_EQ(link_.receive("STATE", queue_), Status::kOk);
+    ASSERT_EQ(link_.receive("OTHER", other), Status::kOk);
+    ASSERT_EQ(link_.open("memq://"), Status::kOk);
+    const std::array<std::byte, 1U> message{};
+
+    ASSERT_EQ(link_.publish("OTHER", {message.data(), message.size()}), Status::kOk);
+    EXPECT_TRUE(wait_until([&] { return other.get_counts().truncated == 1U; }));
+    ASSERT_EQ(link_.publish("STATE", {message.data(), message.size()}), Status::kOk);
+    EXPECT_TRUE(wait_until([&] { return queue_.get_counts().truncated == 1U; }));
+    EXPECT_EQ(other.get_counts().truncated, 1U);
+    link_.close();
+}
+
+TEST_F(LcmLinkTest, AProcessWithoutDescriptorsIsToldWhatIsMissing) {
+    verifies("SWR-LCM-010", Technique::kFaultInjection, Polarity::kViolation);
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit none{0U, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+    EXPECT_EQ(link_.open("memq://"), Status::kError);
+    EXPECT_EQ(link_.get_fault(), LinkFault::kThread);
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+
+    EXPECT_EQ(link_.open("memq://"), Status::kOk);
+}
+
 TEST_F(LcmLinkTest, AUrlThatLcmDoesNotOpenIsReported) {
     verifies("SWR-LCM-010", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const int free = find_free_descriptor();
     for (const char* url : {"nonsense://x", "udpm", "file:///nonexistent/log?mode=r"}) {
         EXPECT_EQ(link_.open(url), Status::kError) << url;
         EXPECT_EQ(link_.get_fault(), LinkFault::kUrl) << url;
         EXPECT_FALSE(link_.is_open());
+        EXPECT_EQ(find_free_descriptor(), free) << url;
     }
     EXPECT_NE(std::string(get_advice(LinkFault::kUrl)).find("udpm://"), std::string::npos);
     ASSERT_EQ(link_.open("memq://"), Status::kOk);
@@ -324,6 +355,31 @@ TEST_F(LcmMulticastTest, TheThreadsOfLcmHaveNoRealTimePriorityEvenIfTheCreatorHa
         EXPECT_GE(threads.count, 2);  // of this port and of liblcm
         EXPECT_EQ(threads.real_time, 0);
         receiving.close();
+    });
+}
+
+TEST_F(LcmMulticastTest, SignalsDoNotEndTheOpenCallAndAMessageThatLcmRefusesIsReported) {
+    verifies("SWR-LCM-011", Technique::kFaultInjection, Polarity::kViolation);
+    run_isolated(true, [] {
+        const lcm_sample::SignalScope scope(SIGUSR1);
+        std::atomic<bool> is_done{false};
+        std::thread sender([&is_done, opener = ::pthread_self()] {
+            while (!is_done) {
+                EXPECT_EQ(::pthread_kill(opener, SIGUSR1), 0);
+                ::poll(nullptr, 0U, 1);
+            }
+        });
+        static LcmLink link;
+        const Status opened = link.open(kMulticast);
+        is_done = true;
+        sender.join();
+        const std::string longer(LcmLink::kChannelNameMax + 1U, 'a');
+        const std::array<std::byte, 1U> message{};
+
+        EXPECT_EQ(opened, Status::kOk);
+        EXPECT_EQ(link.publish(longer.c_str(), {message.data(), message.size()}), Status::kError);
+        EXPECT_EQ(link.publish("STATE", {message.data(), message.size()}), Status::kOk);
+        link.close();
     });
 }
 

@@ -31,6 +31,7 @@
 #include "support/random_value.hpp"
 #include "support/sample_types.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/zero_descriptor.hpp"
 
 namespace mamori::ports::lcm {
 namespace {
@@ -166,6 +167,40 @@ TEST_F(LogPlayerTest, EventsAreDeliveredAtTheirInstantAndNotBefore) {
     EXPECT_EQ(queue_.get_counts().accepted, 1U);
     EXPECT_EQ(player_.deliver_until(Instant{1'000'000}), Status::kPreconditionNotMet);
     EXPECT_EQ(queue_.get_counts().accepted, 3U);
+}
+
+TEST_F(LogPlayerTest, ALogThatIsOpenedAgainHasTheSameTimesAlsoWithDescriptorZero) {
+    verifies("SWR-LCM-012", Technique::kBoundaryValues, Polarity::kNominal);
+    add_event(0, "STATE", make_message(Cloud{}));
+    add_event(1000, "STATE", make_message(Cloud{}));
+    ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
+    std::ofstream(path_, std::ios::binary) << log_;
+    const lcm_sample::ZeroDescriptorScope scope;
+    for (std::uint32_t times = 1U; times <= 2U; ++times) {
+        ASSERT_EQ(player_.open(path_.c_str()), Status::kOk);
+        EXPECT_EQ(::fcntl(0, F_GETFD), FD_CLOEXEC);
+        EXPECT_EQ(player_.open(path_.c_str()), Status::kPreconditionNotMet);
+        EXPECT_EQ(player_.deliver_until(Instant{999'999}), Status::kOk);
+        EXPECT_EQ(player_.deliver_until(Instant{1'000'000}), Status::kPreconditionNotMet);
+        EXPECT_EQ(queue_.get_counts().accepted, 2U * times);
+        player_.close();
+        EXPECT_EQ(find_free_descriptor(), 0);
+    }
+}
+
+TEST_F(LogPlayerTest, EachChannelHasItsEventsAlsoAfterALongerName) {
+    verifies("SWR-LCM-012", Technique::kEquivalenceClasses, Polarity::kNominal);
+    add_event(0, "STATE_OF_THE_ARM", make_message(Cloud{}));
+    add_event(0, "STATE", make_message(Cloud{}));
+    add_event(0, "OTHER", {});
+    Queue other;
+    ASSERT_EQ(player_.receive("STATE", queue_), Status::kOk);
+    ASSERT_EQ(player_.receive("OTHER", other), Status::kOk);
+    ASSERT_EQ(open(), Status::kOk);
+
+    EXPECT_EQ(player_.deliver_until(Instant{0}), Status::kPreconditionNotMet);
+    EXPECT_EQ(queue_.get_counts().accepted, 1U);
+    EXPECT_EQ(other.get_counts().truncated, 1U);
 }
 
 TEST_F(LogPlayerTest, WhatIsNoLogIsRejected) {

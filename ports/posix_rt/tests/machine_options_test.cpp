@@ -8,6 +8,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -16,6 +17,7 @@
 
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/crash_handlers.hpp"
+#include "mamori/ports/posix_rt/crash_note.hpp"
 #include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "support/patient_options.hpp"
@@ -112,6 +114,8 @@ TEST(MachineOptionsTest, OptionAtTheEndOfItsRangeIsNotRefused) {
     static_cast<void>(std::remove(path.c_str()));
 }
 
+Idle g_unstarted;
+constexpr auto kUnstarted = system(frame(10_ms), window("idle", 2_ms, 4_ms, budget(4_ms), run(g_unstarted)));
 Idle g_stopped;
 constexpr auto kStopped = system(frame(10_ms), window("idle", 2_ms, 4_ms, budget(4_ms), run(g_stopped)));
 Idle g_first;
@@ -165,6 +169,41 @@ TEST(MachineOptionsTest, RecorderFileThatCannotBeOpenedEndsTheRunBeforeItsStart)
     EXPECT_EQ(sut.get_report().failed_step, MachineStep::kRecorder);
     EXPECT_EQ(sut.get_report().file_error, MappedFileError::kCannotOpen);
     EXPECT_EQ(g_closed, 0);
+}
+
+TEST(MachineOptionsTest, EventLogOfAnotherRecorderEndsTheRunAndReleasesTheFile) {
+    verifies("SWR-PRT-070", Technique::kFaultInjection, Polarity::kViolation);
+    std::vector<std::byte> region(4096U);
+    FlightRecorder other;
+    ASSERT_EQ(other.open({region.data(), region.size()}), Status::kOk);
+    std::array<Event, 4U> storage{};
+    EventLog log{storage};
+    ASSERT_EQ(log.attach(other), Status::kOk);
+    const std::string path = ::testing::TempDir() + "mamori_options_" + std::to_string(::getpid());
+    MachineOptions options = make_options();
+    options.recorder = path.c_str();
+    options.recorder_capacity = 4U;
+    options.event_log = &log;
+    const auto sut = std::make_unique<Machine<kRefused>>(options);
+
+    EXPECT_EQ(sut->run(1U), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut->get_report().failed_step, MachineStep::kRecorder);
+    MappedFile file;
+    EXPECT_EQ(file.open(path.c_str(), calc_recorder_file_size(4U)), Status::kOk);
+    static_cast<void>(std::remove(path.c_str()));
+}
+
+TEST(MachineOptionsTest, RunnerThatCannotBeStartedEndsTheRunWithClosedOutputs) {
+    verifies("SWR-PRT-070", Technique::kFaultInjection, Polarity::kViolation);
+    MachineOptions options = make_options();
+    options.runner_stack = std::size_t{1U} << 60U;  // larger than the address space
+    const auto sut = std::make_unique<Machine<kUnstarted>>(options);
+    g_closed = 0;
+
+    EXPECT_NE(sut->run(1U), Status::kOk);
+    EXPECT_EQ(sut->get_report().failed_step, MachineStep::kRunnerThreads);
+    EXPECT_EQ(sut->get_report().openings.opened, 0U);
+    EXPECT_EQ(g_closed, 1);
 }
 
 TEST(MachineOptionsTest, EachStepHasASentence) {

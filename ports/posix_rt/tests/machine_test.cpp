@@ -74,6 +74,7 @@ class Adder final : public Component {
         system(frame(10_ms), window("count", 2_ms, 4_ms, budget(4_ms), run(g_counter_##name)))
 
 MAMORI_TEST_SYSTEM(kRuns);
+MAMORI_TEST_SYSTEM(kRepeats);
 MAMORI_TEST_SYSTEM(kCloses);
 MAMORI_TEST_SYSTEM(kWithoutOptions);
 MAMORI_TEST_SYSTEM(kStops);
@@ -141,6 +142,19 @@ TEST(MachineTest, DevicesAreCalledOncePerFrameAndMeasuredAndARunContinuesTheTime
     EXPECT_GT(devices.sampled[3], 2U);
     EXPECT_EQ(devices.sampled[4], devices.sampled[3] + 1U);
     EXPECT_EQ(sut.get_report().openings.opened, 5U);
+}
+
+TEST(MachineTest, ALaterRunBeginsAfterItsLead) {
+    verifies("SWR-PRT-071", Technique::kBoundaryValues, Polarity::kNominal);
+    MachineOptions options = make_options();
+    options.lead = 95_ms;
+    static Machine<kRepeats> sut{options};
+    SpyDevices devices;
+
+    ASSERT_EQ(sut.run(3U, devices), Status::kOk);
+    ASSERT_EQ(sut.run(1U, devices), Status::kOk);
+    ASSERT_EQ(devices.starts.size(), 4U);
+    EXPECT_GE(devices.starts[3], devices.starts[2] + options.lead.ns);
 }
 
 TEST(MachineTest, EndOfEachRunClosesTheOutputsOnce) {

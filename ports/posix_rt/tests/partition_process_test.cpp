@@ -176,8 +176,8 @@ TEST_F(PartitionProcessTest, ItsStartCopiesNoMemory) {
 
 TEST_F(PartitionProcessTest, AnOrderOutOfRangeStartsNothing) {
     verifies("SWR-PRT-015", Technique::kBoundaryValues, Polarity::kViolation);
-    const std::array<const char*, PartitionOrder::kArgumentMax + 1U> arguments{};
-    const std::array<int, PartitionOrder::kDescriptorMax + 1U> descriptors{};
+    const std::array<const char*, 17U> arguments{};
+    const std::array<int, 9U> descriptors{};
     const auto refuse = [this](const PartitionOrder& order) {
         EXPECT_EQ(sut_.start(order), Status::kBadParameter);
         EXPECT_EQ(sut_.check(), PartitionState::kNone);
@@ -204,9 +204,9 @@ TEST_F(PartitionProcessTest, AnOrderOutOfRangeStartsNothing) {
 
 TEST_F(PartitionProcessTest, AnOrderAtItsLimitsIsStarted) {
     verifies("SWR-PRT-015", Technique::kBoundaryValues);
-    std::array<const char*, PartitionOrder::kArgumentMax> arguments{};
+    std::array<const char*, 16U> arguments{};
     arguments.fill("x");
-    std::array<int, PartitionOrder::kDescriptorMax> descriptors{};
+    std::array<int, 8U> descriptors{};
     descriptors.fill(line_.get_writing_end());
     errno = EINTR;  // of an earlier call
 
