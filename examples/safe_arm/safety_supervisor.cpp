@@ -21,7 +21,8 @@ CycleInputs SafetySupervisor::read_inputs(Instant at) noexcept {
     inputs.start_button = now.start_button;
     inputs.reset_button = now.reset_button;
     inputs.may_start = arm_state.read().is_setpoint_near;
-    inputs.can_hold = true;  // by the gate; one valid encoder channel suffices, an unknown position demands STO
+    inputs.can_hold =
+        true;  // by the gate; one valid encoder channel suffices, an unknown position demands STO
     inputs.applied = {drive.read().torque_enable, drive.read().brake_release,
                       drive.read().torque_enable && drive.read().source == TorqueSource::kStopLoop, false};
     return inputs;
@@ -44,7 +45,7 @@ bool SafetySupervisor::is_present(FaultIndex fault) noexcept {
         return !reading.is_new() || !arm_state.is_new();
     }
     if (fault == to_index(ArmFault::kBrakeTestOld)) {
-        // A stopped machine tests its brakes anew after a reset; the fault must not refuse that reset.
+        // A stopped machine tests its brakes again after a reset; the fault must not refuse that reset.
         return is_brake_test_old_ && get_state() != SafeState::kSafe && get_state() != SafeState::kSelfTest;
     }
     return (arm_state.read().faults & (std::uint32_t{1U} << fault)) != 0U;

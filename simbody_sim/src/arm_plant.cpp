@@ -107,13 +107,15 @@ void ArmPlant::Impl::update_switches(const safety::ArmOutputs& outputs) noexcept
     const bool relay_wanted = outputs.relay_close && !watchdog_expired;
     relay_closed = relay_wanted || (faults.relay_stuck && relay_closed);
     const bool has_supply = relay_closed && powered;
-    const bool is_enabled = (outputs.torque_enable && !watchdog_expired) || (faults.sto_ignored && torque_possible.is_on());
+    const bool is_enabled =
+        (outputs.torque_enable && !watchdog_expired) || (faults.sto_ignored && torque_possible.is_on());
     const bool torque_wanted = is_enabled && has_supply;
     static_cast<void>(torque_possible.update(torque_wanted, Duration{}, model.sto_delay, kPlantSubstep));
     for (std::size_t i = 0U; i < kArmJointCount; ++i) {
         const BrakeModel& brake = model.joints[i].brake;
         const bool is_held_open = faults.brake_stuck_open[i] && brake_open[i].is_on();
-        const bool release_wanted = (outputs.brake_release && has_supply && !watchdog_expired) || is_held_open;
+        const bool release_wanted =
+            (outputs.brake_release && has_supply && !watchdog_expired) || is_held_open;
         if (brake_open[i].update(release_wanted, brake.opening_delay, brake.closing_delay, kPlantSubstep)) {
             brakes[i].open();
         }

@@ -167,6 +167,7 @@ def _join(words: Iterable[str]) -> str:
 
 def summarise(result: CaseResult) -> list[str]:
     """One screen: fault, reaction, stopping figures, expected and actual end state."""
+    from mamori_tools.campaign.arm.judge import describe_faults
     from mamori_tools.campaign.arm.selection import ArmCase
 
     case, run = result.case, result.run
