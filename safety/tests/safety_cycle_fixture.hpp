@@ -151,6 +151,15 @@ class SafetyCycleTest : public ::testing::Test {
         ASSERT_EQ(step(), SafeState::kOperational);
         sut_.inputs.is_standing = false;
     }
+    /// The outputs do not follow any longer; SS1 is demanded in the last of these frames.
+    void latch_slip_that_is_not_obeyed() {
+        operate();
+        is_obeying_ = false;
+        set_present(Fault::kSlip, true);
+        for (int i = 0; i < 3; ++i) {
+            step();
+        }
+    }
     void set_present(Fault fault, bool is_present) {
         sut_.present[static_cast<std::size_t>(fault)] = is_present;
     }

@@ -301,12 +301,7 @@ TEST_F(SafetyCycleTest, AReactionAtItsBoundIsInTime) {
 
 TEST_F(SafetyCycleTest, AReactionThatTheOutputsDoNotShowInTimeIsAFault) {
     verifies("SWR-CYC-005", Technique::kFaultInjection, Polarity::kViolation);
-    operate();
-    is_obeying_ = false;
-    for (int i = 0; i < 3; ++i) {
-        set_present(Fault::kSlip, true);
-        step();
-    }
+    latch_slip_that_is_not_obeyed();
     ASSERT_EQ(sut_.get_state(), SafeState::kProtectiveStopSs1);
     // Latched at 0 ms; bound 3 ms; found after it, in the frame that then reports it.
     for (int i = 0; i < 4; ++i) {
@@ -321,12 +316,7 @@ TEST_F(SafetyCycleTest, AReactionThatTheOutputsDoNotShowInTimeIsAFault) {
 
 TEST_F(SafetyCycleTest, AWorseFaultGivesAnEarlierOneNoMoreTime) {
     verifies("SWR-CYC-005", Technique::kFaultInjection, Polarity::kViolation);
-    operate();
-    is_obeying_ = false;
-    for (int i = 0; i < 3; ++i) {
-        set_present(Fault::kSlip, true);
-        step();
-    }
+    latch_slip_that_is_not_obeyed();
     // Latched at 0 ms with a bound of 3 ms. The worse one comes at 3 ms; alone it would have until 5 ms.
     for (int i = 0; i < 2; ++i) {
         step();

@@ -204,7 +204,7 @@ void read_latent(const std::string& text, FaultPlan& plan) {
     plan.latent = find_by_name("latent fault", text.substr(0U, colon), kKinds);
     if (!may_be_latent(plan.latent)) {
         throw PlanError(std::string(get_name(plan.latent)) +
-                        " is no latent fault; valid: brake_stuck_open, brakes_stuck_open, brake_fade, "
+                        " is not a latent fault; valid: brake_stuck_open, brakes_stuck_open, brake_fade, "
                         "sto_ignored, relay_stuck");
     }
     if (uses_joint(plan.latent) != (colon != std::string::npos)) {

@@ -256,7 +256,7 @@ TEST(FaultPlanTest, ALatentFaultIsPresentSinceTheStartOfTheMotionOrWithoutAnothe
 
 TEST(FaultPlanTest, ALatentFaultThatIsNoneIsRefused) {
     verifies("SWR-SIM-011", Technique::kErrorGuessing, Polarity::kViolation);
-    EXPECT_NE(get_error("kind=none,latent=power_loss").find("power_loss is no latent fault; valid: "),
+    EXPECT_NE(get_error("kind=none,latent=power_loss").find("power_loss is not a latent fault; valid: "),
               std::string::npos);
     EXPECT_NE(get_error("kind=none,latent=stoignored").find("did you mean 'sto_ignored'?"),
               std::string::npos);
