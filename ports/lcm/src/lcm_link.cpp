@@ -3,8 +3,6 @@
 
 #include <lcm/lcm.h>
 
-#include <cerrno>
-
 #include "link_thread.hpp"
 #include "mamori/kernel/base/assert.hpp"
 
@@ -31,18 +29,16 @@ Status LcmLink::open(const char* url) noexcept {
         return Status::kPreconditionNotMet;
     }
     url_ = url;
-    MAMORI_ENSURE(1, ::sem_init(&is_connected_, 0, 0U) == 0);
+    MAMORI_ENSURE(1, ::pthread_barrier_init(&connected_, nullptr, 2U) == 0);
     if (detail::start_thread(thread_, stop_, &LcmLink::serve, this) != Status::kOk) {
         fault_ = LinkFault::kThread;
     } else {
-        while (::sem_wait(&is_connected_) != 0) {
-            MAMORI_ENSURE(2, errno == EINTR);
-        }
+        static_cast<void>(::pthread_barrier_wait(&connected_));
         if (fault_ != LinkFault::kNone) {
             detail::stop_thread(thread_, stop_);
         }
     }
-    static_cast<void>(::sem_destroy(&is_connected_));
+    static_cast<void>(::pthread_barrier_destroy(&connected_));
     return fault_ == LinkFault::kNone ? Status::kOk : Status::kError;
 }
 
@@ -93,7 +89,7 @@ void LcmLink::run() noexcept {
     const bool is_connected = fault_ == LinkFault::kNone;
     is_receiving_.store(is_connected, std::memory_order_relaxed);
     lcm_t* const lcm = get_lcm(handle_);
-    MAMORI_ENSURE(3, ::sem_post(&is_connected_) == 0);
+    static_cast<void>(::pthread_barrier_wait(&connected_));
     if (!is_connected) {
         return;
     }

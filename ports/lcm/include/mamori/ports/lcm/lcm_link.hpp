@@ -8,7 +8,6 @@
 #define MAMORI_PORTS_LCM_LCM_LINK_HPP
 
 #include <pthread.h>
-#include <semaphore.h>
 
 #include <array>
 #include <atomic>
@@ -79,7 +78,7 @@ class LcmLink final {
     const char* url_{nullptr};
     LcmHandle* handle_{nullptr};
     pthread_t thread_{};
-    sem_t is_connected_{};
+    pthread_barrier_t connected_{};
     std::atomic<bool> is_receiving_{false};
     int stop_{-1};
     LinkFault fault_{LinkFault::kNone};
