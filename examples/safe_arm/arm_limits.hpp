@@ -53,9 +53,14 @@ inline constexpr double kFrameS = 0.001;
 
 /// Safely limited speed (SLS): 90 % of the mechanical speed limit [rad/s]. Motions are planned below 80 %.
 inline constexpr mamori::safety::JointVector kSafeSpeedRadS{0.9, 0.9, 1.8, 1.8, 5.65, 5.65, 5.65};
-/// From the detection of a fault to brakes that bite: confirmation, one frame, closing delay, and the braking
-/// itself. A joint that would leave the safe range within this time at its present speed is stopped at once.
-inline constexpr mamori::Duration kStopTime = 50_ms;
+/// The speed is judged as it will be when the stop begins to act: its change within 4 frames goes on for 8
+/// ms, from the middle of the measured mean (2 ms), over the confirmation and the rate of torque (2 frames
+/// each), with 2 ms of margin.
+inline constexpr double kSpeedPrediction = 2.0;
+/// From the detection of a fault to the end of the travel at the measured speed: confirmation and one frame,
+/// and half of the ramp of a stop. Brakes without a ramp need less. A joint that would leave the safe range
+/// within this time is stopped at once.
+inline constexpr mamori::Duration kStopTime = 90_ms;
 /// Safely limited position (SLP): 2 degrees inside the mechanical range, symmetric [rad].
 inline constexpr mamori::safety::JointVector kSafePositionRad{3.05, 1.60, 3.00, 2.35, 4.41, 2.84, 4.41};
 /// Farthest that a joint can move within one frame: mechanical speed limit plus 20 % and both channels' steps
@@ -65,6 +70,11 @@ inline constexpr mamori::safety::JointVector kMaxStepRad{0.0016, 0.0016, 0.0028,
 /// Torque limit of the drives [N m]; the gate saturates at it so that the deviation check compares like with
 /// like.
 inline constexpr mamori::safety::JointVector kTorqueLimitNm{232.0, 232.0, 100.0, 100.0, 14.5, 14.5, 14.5};
+
+/// The torque of the controller may differ by this much from the torque that holds the arm [N m], and change
+/// by this much in a frame [N m]. The motions of the example need at most a fifth of it.
+inline constexpr mamori::safety::JointVector kControllerShareNm{60.0, 80.0, 25.0, 35.0, 4.0, 4.0, 4.0};
+inline constexpr mamori::safety::JointVector kControllerStepNm{5.0, 8.0, 2.5, 3.5, 0.3, 0.3, 0.3};
 
 /// Frames in a row in which a fault must be seen before it is latched; other faults in the first one.
 inline constexpr std::uint32_t kDiscrepancyFrames = 2U;
@@ -92,12 +102,14 @@ inline constexpr double kBumplessRad = 0.002;
 /// A joint below this speed stands [rad/s]; the confirmation time hides the step of the coarser encoder.
 inline constexpr double kStandstillRadS = 0.02;
 
-/// Age at which a controller message is stale; two lost messages in a row are tolerated.
-inline constexpr mamori::Duration kCommandAgeMax = 3_ms;
+/// Messages of the controller that may be lost in a row, and the age at which one is stale: it is judged in
+/// the frame after the one in which it was sent.
+inline constexpr std::uint32_t kCommandLossesMax = 2U;
+inline constexpr mamori::Duration kCommandAgeMax{kFrame.ns * (1 + kCommandLossesMax)};
 /// Standing for this long is standstill.
 inline constexpr mamori::Duration kStandstillTime = 50_ms;
 /// Bounds of a controlled stop: then SS2 becomes SS1, and SS1 becomes STO.
-inline constexpr mamori::safety::StopBounds kStopBounds{400_ms, 400_ms};
+inline constexpr mamori::safety::StopBounds kStopBounds{500_ms, 500_ms};
 /// Torque feedback may contradict the command for this long. Torque that outlasts safe torque off locks the
 /// machine out and leaves it to the watchdog to switch the drives off; torque that does not come is a
 /// deviation.
@@ -109,9 +121,9 @@ inline constexpr mamori::safety::BrakeLimits kBrakes{kBrakeFeedbackTime, true};
 /// inertia of a joint bounds the damping (delay of speed and output: 4 ms), its largest one the stiffness.
 inline constexpr mamori::safety::JointVector kStopStiffness{6000.0, 6000.0, 2500.0, 2500.0,
                                                             200.0,  200.0,  200.0};
-inline constexpr mamori::safety::JointVector kStopDamping{300.0, 300.0, 90.0, 90.0, 5.0, 5.0, 5.0};
-/// Share of the speed that a stop takes away in each frame: it ends after 150 ms.
-inline constexpr double kStopRampStep = kFrameS / 0.15;
+inline constexpr mamori::safety::JointVector kStopDamping{330.0, 330.0, 95.0, 95.0, 5.0, 5.0, 5.0};
+/// Length of the ramp of a stop [s].
+inline constexpr double kStopRampS = 0.25;
 /// Distance between the ramp of a stop, or the place of a hold, and the measured position [rad].
 inline constexpr double kStopDeviationRad = 0.03;
 /// Feedback of a switch-off path may contradict its command for this long.

@@ -2,20 +2,22 @@
 #include "drive_gate.hpp"
 
 #include "arm_limits.hpp"
+#include "gravity_model.hpp"
 #include "mamori/safety/arm/guards.hpp"
 
 namespace safe_arm {
 namespace {
 
-/// Torque inside +-limit; anything that is not a number becomes no torque.
-double saturate(double torque_nm, double limit_nm) noexcept {
-    if (mamori::safety::is_within(torque_nm, limit_nm)) {
-        return torque_nm;
+/// The torque nearest to the wanted one that is at most `distance_nm` away from `center_nm`. What is not a
+/// number becomes `center_nm`.
+double hold_near(double center_nm, double wanted_nm, double distance_nm) noexcept {
+    if (mamori::safety::is_within(wanted_nm - center_nm, distance_nm)) {
+        return wanted_nm;
     }
-    if (torque_nm > limit_nm) {
-        return limit_nm;
+    if (wanted_nm > center_nm) {
+        return center_nm + distance_nm;
     }
-    return torque_nm < -limit_nm ? -limit_nm : 0.0;
+    return wanted_nm < center_nm ? center_nm - distance_nm : center_nm;
 }
 
 }  // namespace
@@ -57,19 +59,30 @@ JointVector DriveGate::calc_torque(const StopCommand& decision) noexcept {
     }
     switch (decision.torque_source) {
         case TorqueSource::kController:
-            wanted_nm = command.read().torque_nm;
+            wanted_nm = limit_controller(command.read().torque_nm);
             break;
         case TorqueSource::kStopLoop:
-            wanted_nm = stop_loop_.step(arm_state.read(), outputs_.torque_nm);
+            wanted_nm = stop_loop_.step(arm_state.read());
             break;
         case TorqueSource::kBrakeTest:
             wanted_nm = scale(kTorqueLimitNm, decision.brake_test_share, 0.0);
             break;
     }
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
-        wanted_nm[j] = saturate(wanted_nm[j], kTorqueLimitNm[j]);
+        wanted_nm[j] = hold_near(0.0, wanted_nm[j], kTorqueLimitNm[j]);
     }
     return wanted_nm;
+}
+
+/// First the rate, then the distance from the torque that holds the arm: the last torque is a limited one, so
+/// both are kept.
+JointVector DriveGate::limit_controller(const JointVector& wanted_nm) const noexcept {
+    JointVector result = calc_gravity_torque(arm_state.read().position_rad);
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        const double near_last = hold_near(outputs_.torque_nm[j], wanted_nm[j], kControllerStepNm[j]);
+        result[j] = hold_near(result[j], near_last, kControllerShareNm[j]);
+    }
+    return result;
 }
 
 Status DriveGate::on_deactivated(ContextHandle) noexcept {

@@ -35,6 +35,7 @@ class DriveGate final : public mamori::Component {
 
   private:
     JointVector calc_torque(const StopCommand& decision) noexcept;
+    JointVector limit_controller(const JointVector& wanted_nm) const noexcept;
 
     mamori::safety::ArmOutputs& outputs_;
     StopLoop stop_loop_{};

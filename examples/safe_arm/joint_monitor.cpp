@@ -63,6 +63,7 @@ void JointMonitor::begin_history(const JointReading& now) noexcept {
     distrusted_a_ = {};
     distrusted_b_ = {};
     past_rad_.fill(now.position_a_rad);
+    past_rad_s_ = {};
     oldest_ = 0U;
     last_rad_ = now.position_a_rad;
     last_ = now;
@@ -123,18 +124,23 @@ std::uint32_t JointMonitor::judge_stuck(const JointReading& now) noexcept {
                 ArmFault::kEncoderStuck);
 }
 
-/// The range holds for the place where the joint can be stopped, too: at the limit itself a fast joint is
-/// already lost.
-std::uint32_t JointMonitor::judge_motion(const JointState& now) const noexcept {
+/// The speed limit holds for the speed that the joint will have when a stop begins to act, too. The range
+/// holds for the place where the joint can be stopped, too: at the limit itself a fast joint is already lost.
+std::uint32_t JointMonitor::judge_motion(const JointState& now) noexcept {
     JointVector stopped_rad{};
+    JointVector predicted_rad_s{};
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
         stopped_rad[j] = now.position_rad[j] + now.velocity_rad_s[j] * mamori::to_seconds(kStopTime);
+        predicted_rad_s[j] =
+            now.velocity_rad_s[j] + kSpeedPrediction * (now.velocity_rad_s[j] - past_rad_s_[oldest_][j]);
     }
+    past_rad_s_[oldest_] = now.velocity_rad_s;
     const AxisSet outside = unite(calc_position_violations(now.position_rad, kSafeRange),
                                   calc_position_violations(stopped_rad, kSafeRange));
-    std::uint32_t faults =
-        flag(calc_speed_violations(now.velocity_rad_s, kSafeSpeedRadS), ArmFault::kOverspeed) |
-        flag(outside, ArmFault::kPositionLimit);
+    std::uint32_t faults = flag(unite(calc_speed_violations(predicted_rad_s, kSafeSpeedRadS),
+                                      calc_speed_violations(now.velocity_rad_s, kSafeSpeedRadS)),
+                                ArmFault::kOverspeed) |
+                           flag(outside, ArmFault::kPositionLimit);
     if (is_controlled()) {
         faults |= flag(calc_following_errors(command.read().setpoint_rad, now.position_rad,
                                              make_uniform(kFollowingErrorRad)),

@@ -44,7 +44,7 @@ class JointMonitor final : public mamori::Component {
     std::uint32_t judge_channels(const JointReading& now, JointVector& position_rad) noexcept;
     void move_history_to_b(std::size_t joint) noexcept;
     std::uint32_t judge_stuck(const JointReading& now) noexcept;
-    std::uint32_t judge_motion(const JointState& now) const noexcept;
+    std::uint32_t judge_motion(const JointState& now) noexcept;
     std::uint32_t judge_torque(const JointReading& now) noexcept;
     std::uint32_t judge_power(const JointReading& now) noexcept;
     std::uint32_t judge_brakes(const JointReading& now) noexcept;
@@ -56,7 +56,8 @@ class JointMonitor final : public mamori::Component {
 
     std::array<JointVector, kSpeedCycles> past_rad_{};  ///< trusted positions; the oldest at `oldest_`
     std::size_t oldest_{0U};
-    JointVector last_rad_{};  ///< trusted positions of the cycle before
+    std::array<JointVector, kSpeedCycles> past_rad_s_{};  ///< speeds of the same cycles
+    JointVector last_rad_{};                              ///< trusted positions of the cycle before
     JointReading last_{};
     JointVector stuck_since_rad_{};  ///< setpoint when a count of the joint last changed
     mamori::safety::AxisSet distrusted_a_{};

@@ -39,12 +39,20 @@ void Machine::apply_software_faults(Instant now) noexcept {
         case FaultKind::kProcessorStops:
             supervisor_time = is_active ? mamori::ports::virtual_time::kNever : kSafetyComponentTime;
             break;
+        case FaultKind::kControllerWrong:
+            controller.set_wrong(is_active ? &wrong_ : nullptr);
+            break;
         case FaultKind::kMessageLost:
             channel_fault.is_losing = is_active;
             break;
         case FaultKind::kMessageLate:
             if (is_active) {
                 channel_fault.delay = Duration{static_cast<std::int64_t>(fault_.magnitude * 1.0e9)};
+            }
+            break;
+        case FaultKind::kMessageDamaged:
+            if (is_active) {
+                channel_fault.inverted_bit = static_cast<std::uint32_t>(fault_.magnitude);
             }
             break;
         case FaultKind::kNone:

@@ -9,6 +9,7 @@
 #include "mamori/simbody_sim/arm_plant.hpp"
 #include "mamori/simbody_sim/fault_plan.hpp"
 #include "run_record.hpp"
+#include "wrong_controller.hpp"
 
 namespace safe_arm {
 
@@ -21,7 +22,11 @@ class Machine final : public mamori::Devices {
     /// @param[in] fault with `at` in simulated time.
     Machine(mamori::sim::ArmPlant& plant, mamori::ports::virtual_time::VirtualHost& host,
             const mamori::sim::FaultPlan& fault, RunRecord& record) noexcept
-        : plant_(plant), host_(host), fault_(fault), record_(record) {}
+        : plant_(plant),
+          host_(host),
+          fault_(fault),
+          wrong_(static_cast<std::uint64_t>(fault.magnitude)),
+          record_(record) {}
 
     void sample(std::uint64_t frame, mamori::Instant now) noexcept override;
     void apply(std::uint64_t frame, mamori::Instant now, mamori::Duration length) noexcept override;
@@ -35,6 +40,7 @@ class Machine final : public mamori::Devices {
     mamori::sim::ArmPlant& plant_;
     mamori::ports::virtual_time::VirtualHost& host_;
     mamori::sim::FaultPlan fault_;
+    WrongController wrong_;  ///< of the fault plan
     RunRecord& record_;
     mamori::safety::ArmOutputs applied_{};  ///< those of the frame before once the processor has stopped
     bool is_plant_sound_{true};

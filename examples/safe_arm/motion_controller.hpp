@@ -12,6 +12,7 @@
 #include "mamori/kernel/system/system.hpp"
 #include "messages.hpp"
 #include "motion_track.hpp"
+#include "wrong_controller.hpp"
 
 namespace mamori::sim {
 class ComputedTorqueController;
@@ -36,6 +37,9 @@ class MotionController final : public mamori::Component {
     void configure(const MotionTrack& track, mamori::sim::ComputedTorqueController& law,
                    mamori::Instant motion_start) noexcept;
 
+    /// From the next cycle on. @param[in] wrong spoils each command; nullptr: none. Must outlive its use.
+    void set_wrong(WrongController* wrong) noexcept { wrong_ = wrong; }
+
     /// @return kOk; kPreconditionNotMet (not configured).
     mamori::Status on_activated(mamori::ContextHandle context) noexcept override;
     mamori::Status on_execute(mamori::ContextHandle context) noexcept override;
@@ -50,6 +54,7 @@ class MotionController final : public mamori::Component {
     JointVector hold_rad_{};
     double path_time_s_{0.0};
     bool is_on_path_{false};
+    WrongController* wrong_{nullptr};
     std::uint32_t sequence_{0U};
 };
 

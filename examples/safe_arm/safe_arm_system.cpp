@@ -29,7 +29,9 @@ ArmReader reader{inputs};
 JointMonitor monitor;
 SafetySupervisor supervisor{safety_state, event_log};
 MotionController controller;
-mamori::ports::virtual_time::SimulatedChannel<TorqueCommand, kChannelCapacity> channel{"channel"};
+CommandSender command_sender;
+mamori::ports::virtual_time::SimulatedChannel<CommandFrame, kChannelCapacity> channel{"channel"};
+CommandReceiver command_receiver;
 DriveGate gate{outputs};
 
 static constexpr auto kSafeArm = mamori::safety::system(
@@ -37,27 +39,32 @@ static constexpr auto kSafeArm = mamori::safety::system(
     supervise(reader, alive(), deadline(kSafetyComponentMax)),
     supervise(monitor, alive(), deadline(kSafetyComponentMax)),
     supervise(supervisor, alive(), deadline(kSafetyComponentMax)),
+    supervise(command_receiver, alive(), deadline(kSafetyComponentMax)),
     supervise(gate, alive(), deadline(kSafetyComponentMax)),
     supervise(controller, alive(), deadline(kControllerMax), raises(ArmFault::kControllerSilent)),
     mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),
-    mamori::window("control", 300_us, 400_us, mamori::budget(350_us), mamori::run(controller)),
+    mamori::window("control", 300_us, 400_us, mamori::budget(350_us),
+                   mamori::run(controller, command_sender)),
     mamori::window("transport", 700_us, 100_us, mamori::budget(80_us), mamori::run(channel)),
-    mamori::window("act", 800_us, 100_us, mamori::budget(80_us), mamori::run(gate)),
+    mamori::window("act", 800_us, 100_us, mamori::budget(80_us), mamori::run(command_receiver, gate)),
     mamori::connect(reader.reading, monitor.reading, mamori::any_age()),
-    mamori::connect(channel.out, monitor.command, mamori::any_age()),
+    mamori::connect(command_receiver.out, monitor.command, mamori::any_age()),
     mamori::connect(gate.drive, monitor.drive, mamori::any_age()),
     mamori::connect(reader.reading, supervisor.reading, mamori::any_age()),
     mamori::connect(monitor.state, supervisor.arm_state, mamori::any_age()),
     mamori::connect(gate.drive, supervisor.drive, mamori::any_age()),
     mamori::connect(monitor.state, controller.state, mamori::any_age()),
     mamori::connect(supervisor.stop, controller.stop, mamori::any_age()),
-    mamori::connect(controller.command, channel.in, mamori::any_age()),
+    mamori::connect(controller.command, command_sender.in, mamori::any_age()),
+    mamori::connect(command_sender.out, channel.in, mamori::any_age()),
+    mamori::connect(channel.out, command_receiver.in, mamori::any_age()),
     mamori::connect(supervisor.stop, gate.stop, mamori::any_age()),
     mamori::connect(monitor.state, gate.arm_state, mamori::any_age()),
-    mamori::connect(channel.out, gate.command, mamori::any_age()),
+    mamori::connect(command_receiver.out, gate.command, mamori::any_age()),
     mamori::modelled_time(reader, kSafetyComponentTime), mamori::modelled_time(monitor, kSafetyComponentTime),
     mamori::modelled_time(supervisor, kSafetyComponentTime),
-    mamori::modelled_time(controller, kControllerTime), mamori::modelled_time(channel, kSafetyComponentTime),
+    mamori::modelled_time(controller, kControllerTime), mamori::modelled_time(command_sender, kLinkTime),
+    mamori::modelled_time(command_receiver, kLinkTime), mamori::modelled_time(channel, kSafetyComponentTime),
     mamori::modelled_time(gate, kSafetyComponentTime));
 MAMORI_SAFETY_CHECK(kSafeArm);
 

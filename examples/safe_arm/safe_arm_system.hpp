@@ -11,6 +11,7 @@
 
 #include "arm_limits.hpp"
 #include "arm_reader.hpp"
+#include "command_link.hpp"
 #include "drive_gate.hpp"
 #include "joint_monitor.hpp"
 #include "mamori/kernel/record/event_log.hpp"
@@ -45,7 +46,9 @@ extern ArmReader reader;
 extern JointMonitor monitor;
 extern SafetySupervisor supervisor;
 extern MotionController controller;
-extern mamori::ports::virtual_time::SimulatedChannel<TorqueCommand, kChannelCapacity> channel;
+extern CommandSender command_sender;
+extern mamori::ports::virtual_time::SimulatedChannel<CommandFrame, kChannelCapacity> channel;
+extern CommandReceiver command_receiver;
 extern DriveGate gate;
 
 /// Runs the static table, which is in safe_arm_system.cpp.
@@ -60,6 +63,7 @@ extern mamori::ports::virtual_time::MachineBase& simulation;
 /// Modelled execution times.
 inline constexpr mamori::Duration kSafetyComponentTime = 30_us;
 inline constexpr mamori::Duration kControllerTime = 120_us;
+inline constexpr mamori::Duration kLinkTime = 10_us;
 
 /// Starts the system, runs `frames` major frames in virtual time and stops the system.
 /// @return as mamori::ports::virtual_time::Machine::run().

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Brings the arm to rest and holds it there under torque (SS1, SOS) without the controller. Each joint
-/// follows a ramp from its speed to zero: the last torque before the stop, and a spring with a damper to the
-/// ramp.
+/// follows a ramp from its speed to zero: the torque against gravity, and a spring with a damper to the ramp.
 ///
 /// @satisfies SWR-SAF-025      Design: docs/design/safe_arm.md#stop-and-hold
 #ifndef EXAMPLES_SAFE_ARM_STOP_LOOP_HPP
 #define EXAMPLES_SAFE_ARM_STOP_LOOP_HPP
 
 #include "arm_limits.hpp"
+#include "gravity_model.hpp"
 #include "messages.hpp"
 
 namespace safe_arm {
@@ -17,26 +17,25 @@ namespace safe_arm {
 class StopLoop final {
   public:
     /// One frame. The first one begins the ramp at the measured position and speed.
-    /// @param[in] measured position [rad] and speed [rad/s] of this frame. @param[in] last_torque_nm given to
-    /// the drives in the frame before; used in the first frame.
+    /// @param[in] measured position [rad] and speed [rad/s] of this frame.
     /// @return torque of each joint [N m], not limited.
-    JointVector step(const JointState& measured, const JointVector& last_torque_nm) noexcept {
+    JointVector step(const JointState& measured) noexcept {
         if (!is_running_) {
             is_running_ = true;
             rate_ = 1.0;
             setpoint_rad_ = measured.position_rad;
             speed_rad_s_ = measured.velocity_rad_s;
-            torque_nm_ = limit(last_torque_nm);
         }
-        JointVector result{};
+        JointVector torque_nm = calc_gravity_torque(measured.position_rad);
         for (std::size_t j = 0U; j < kArmJointCount; ++j) {
-            const double speed_rad_s = speed_rad_s_[j] * rate_;
-            result[j] = torque_nm_[j] + kStopStiffness[j] * (setpoint_rad_[j] - measured.position_rad[j]) +
-                        kStopDamping[j] * (speed_rad_s - measured.velocity_rad_s[j]);
+            const double speed_rad_s = speed_rad_s_[j] * rate_ * rate_;
+            torque_nm[j] += kStopStiffness[j] * (setpoint_rad_[j] - measured.position_rad[j]) +
+                            kStopDamping[j] * (speed_rad_s - measured.velocity_rad_s[j]);
             setpoint_rad_[j] += speed_rad_s * kFrameS;
         }
-        rate_ = rate_ > kStopRampStep ? rate_ - kStopRampStep : 0.0;
-        return result;
+        constexpr double kStep = kFrameS / kStopRampS;
+        rate_ = rate_ > kStep ? rate_ - kStep : 0.0;
+        return torque_nm;
     }
 
     /// The next step begins a new ramp.
@@ -46,21 +45,8 @@ class StopLoop final {
     const JointVector& get_setpoint() const noexcept { return setpoint_rad_; }
 
   private:
-    /// The last torque came from the controller. A wrong one may move the arm by half of the tolerated
-    /// distance; gravity needs less.
-    static JointVector limit(JointVector torque_nm) noexcept {
-        for (std::size_t j = 0U; j < kArmJointCount; ++j) {
-            const double limit_nm = 0.5 * kStopDeviationRad * kStopStiffness[j];
-            if (!mamori::safety::is_within(torque_nm[j], limit_nm)) {
-                torque_nm[j] = torque_nm[j] > 0.0 ? limit_nm : -limit_nm;
-            }
-        }
-        return torque_nm;
-    }
-
     JointVector setpoint_rad_{};
     JointVector speed_rad_s_{};  ///< at the begin
-    JointVector torque_nm_{};    ///< before the begin
     double rate_{0.0};           ///< of that speed
     bool is_running_{false};
 };

@@ -45,6 +45,10 @@ const char* get_name(FaultKind kind) noexcept {
             return "relay_stuck";
         case FaultKind::kProcessorStops:
             return "processor_stops";
+        case FaultKind::kMessageDamaged:
+            return "message_damaged";
+        case FaultKind::kControllerWrong:
+            return "controller_wrong";
     }
     return "invalid";
 }
@@ -86,7 +90,8 @@ bool uses_joint(FaultKind kind) noexcept {
 bool uses_magnitude(FaultKind kind) noexcept {
     return kind == FaultKind::kEncoderBitFlip || kind == FaultKind::kEncoderBias ||
            kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade ||
-           kind == FaultKind::kMessageLate;
+           kind == FaultKind::kMessageLate || kind == FaultKind::kMessageDamaged ||
+           kind == FaultKind::kControllerWrong;
 }
 
 bool is_active(const FaultPlan& plan, Instant now) noexcept {

@@ -23,7 +23,7 @@ class PlanError final : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-constexpr std::array<FaultKind, 16U> kKinds{FaultKind::kNone,
+constexpr std::array<FaultKind, 18U> kKinds{FaultKind::kNone,
                                             FaultKind::kEncoderFreeze,
                                             FaultKind::kEncoderBitFlip,
                                             FaultKind::kEncoderBias,
@@ -38,7 +38,9 @@ constexpr std::array<FaultKind, 16U> kKinds{FaultKind::kNone,
                                             FaultKind::kBrakesStuckOpen,
                                             FaultKind::kStoIgnored,
                                             FaultKind::kRelayStuck,
-                                            FaultKind::kProcessorStops};
+                                            FaultKind::kProcessorStops,
+                                            FaultKind::kMessageDamaged,
+                                            FaultKind::kControllerWrong};
 constexpr std::array<FaultChannel, 3U> kChannels{FaultChannel::kA, FaultChannel::kB, FaultChannel::kBoth};
 
 /// Times in a plan end here, so that they stay far from the range of Instant.
@@ -165,6 +167,13 @@ double to_magnitude(FaultKind kind, const std::string& text) {
             break;
         case FaultKind::kMessageLate:
             demand(value > 0.0 && value <= 10.0, "a delay above 0 s and at most 10 s");
+            break;
+        case FaultKind::kMessageDamaged:
+            demand(value == std::floor(value) && value >= 0.0 && value <= 65535.0, "a bit from 0 to 65535");
+            break;
+        case FaultKind::kControllerWrong:
+            demand(value == std::floor(value) && value >= 0.0 && value <= kWrongControllerMax,
+                   "a whole number from 0 to 1e9");
             break;
         case FaultKind::kNone:
         case FaultKind::kEncoderFreeze:

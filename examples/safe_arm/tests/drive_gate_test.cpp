@@ -7,6 +7,7 @@
 
 #include "arm_limits.hpp"
 #include "feed.hpp"
+#include "gravity_model.hpp"
 #include "mamori/trace/verifies.hpp"
 
 namespace safe_arm {
@@ -28,6 +29,13 @@ class DriveGateTest : public ::testing::Test {
         command.torque_nm.fill(torque_nm);
         feed(sut_.command, command);
     }
+    /// One frame with this command. @return torque of the drives.
+    const JointVector& run(const TorqueCommand& wanted) {
+        feed(sut_.command, wanted);
+        allow(true);
+        EXPECT_EQ(sut_.on_execute({}), Status::kOk);
+        return outputs_.torque_nm;
+    }
     void expect_safe_outputs() const {
         EXPECT_FALSE(outputs_.torque_enable);
         EXPECT_FALSE(outputs_.brake_release);
@@ -41,19 +49,19 @@ class DriveGateTest : public ::testing::Test {
 TEST_F(DriveGateTest, AllowedTorqueReachesTheDrives) {
     verifies("SWR-SAF-009");
     allow(true);
-    command(3.0);
+    command(0.2);
 
     ASSERT_EQ(sut_.on_execute({}), Status::kOk);
     EXPECT_TRUE(outputs_.torque_enable);
     EXPECT_TRUE(outputs_.brake_release);
-    EXPECT_EQ(outputs_.torque_nm[6], 3.0);
-    EXPECT_EQ(take(sut_.drive).torque_nm[6], 3.0);
+    EXPECT_EQ(outputs_.torque_nm[6], 0.2);
+    EXPECT_EQ(take(sut_.drive).torque_nm[6], 0.2);
 }
 
 TEST_F(DriveGateTest, PermissionOfAnEarlierFrameCountsForNothing) {
     verifies("SWR-SAF-009", Technique::kFaultInjection, Polarity::kViolation);
     allow(true);
-    command(3.0);
+    command(0.2);
     ASSERT_EQ(sut_.on_execute({}), Status::kOk);
 
     sut_.stop.mark_read();
@@ -65,7 +73,7 @@ TEST_F(DriveGateTest, PermissionOfAnEarlierFrameCountsForNothing) {
 TEST_F(DriveGateTest, PermissionThatWaitedForAGateCutOffIsNoneInTheNextFrame) {
     verifies("SWR-SAF-009", Technique::kFaultInjection, Polarity::kViolation);
     allow(true);  // given at 0, and never marked read: the window of the gate overran
-    command(3.0);
+    command(0.2);
 
     ASSERT_EQ(sut_.on_execute({0, mamori::Instant{kFrame.ns - 1}}), Status::kOk);
     EXPECT_TRUE(outputs_.torque_enable);
@@ -75,7 +83,7 @@ TEST_F(DriveGateTest, PermissionThatWaitedForAGateCutOffIsNoneInTheNextFrame) {
 
 TEST_F(DriveGateTest, NoPermissionMeansSafeOutputsWhateverIsCommanded) {
     verifies("SWR-SAF-009", Technique::kFaultInjection, Polarity::kViolation);
-    command(3.0);
+    command(0.2);
     ASSERT_EQ(sut_.on_execute({}), Status::kOk);
     expect_safe_outputs();
 
@@ -84,23 +92,57 @@ TEST_F(DriveGateTest, NoPermissionMeansSafeOutputsWhateverIsCommanded) {
     expect_safe_outputs();
 }
 
-TEST_F(DriveGateTest, TorqueIsSaturatedOnBothSidesAndNoNumberIsNoTorque) {
-    verifies("SWR-SAF-009", Technique::kBoundaryValues, Polarity::kViolation);
-    TorqueCommand command{};
-    command.torque_nm = {232.0,
-                         232.1,
-                         -232.0,
-                         -100.1,
-                         std::numeric_limits<double>::quiet_NaN(),
-                         std::numeric_limits<double>::infinity(),
-                         -std::numeric_limits<double>::infinity()};
-    command.torque_nm[2] = -100.0;
-    feed(sut_.command, command);
-    allow(true);
+TEST_F(DriveGateTest, TheControllerChangesTorqueStepByStep) {
+    verifies("SWR-SAF-042", Technique::kBoundaryValues, Polarity::kViolation);
+    JointVector before{};
+    for (const double sign : {1.0, -1.0, -1.0}) {
+        for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+            const double step_nm = kControllerStepNm[j];
+            TorqueCommand wanted{};
+            wanted.torque_nm = before;
+            wanted.torque_nm[j] += sign * 1.0001 * step_nm;
+            EXPECT_NEAR(run(wanted)[j], before[j] + sign * step_nm, 1e-12) << j;
+            before = outputs_.torque_nm;
+            wanted.torque_nm[j] = before[j] - sign * 0.9999 * step_nm;
+            EXPECT_EQ(run(wanted)[j], wanted.torque_nm[j]) << j;
+            before = outputs_.torque_nm;
+        }
+    }
+}
 
-    ASSERT_EQ(sut_.on_execute({}), Status::kOk);
-    const JointVector expected{232.0, 232.0, -100.0, -100.0, 0.0, 14.5, -14.5};
-    EXPECT_EQ(outputs_.torque_nm, expected);
+TEST_F(DriveGateTest, TheControllerStaysNearTheTorqueThatHoldsTheArm) {
+    verifies("SWR-SAF-042", Technique::kBoundaryValues, Polarity::kViolation);
+    JointState state{};
+    state.position_rad = {0.3, 0.9, -0.4, 0.8, 0.2, 0.5, 0.0};
+    feed(sut_.arm_state, state);
+    const JointVector carried_nm = calc_gravity_torque(state.position_rad);
+    for (const double sign : {1.0, -1.0}) {
+        TorqueCommand wanted{};
+        for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+            wanted.torque_nm[j] = carried_nm[j] + sign * 1.001 * kControllerShareNm[j];
+        }
+        for (int frame = 0; frame < 200; ++frame) {
+            static_cast<void>(run(wanted));
+        }
+        for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+            EXPECT_NEAR(outputs_.torque_nm[j], carried_nm[j] + sign * kControllerShareNm[j], 1e-9) << j;
+            wanted.torque_nm[j] = carried_nm[j] + sign * 0.999 * kControllerShareNm[j];
+        }
+        EXPECT_EQ(run(wanted), wanted.torque_nm);
+    }
+}
+
+TEST_F(DriveGateTest, WhatIsNoNumberLeavesTheTorqueAndInfinityMovesItByAStep) {
+    verifies("SWR-SAF-042", Technique::kFaultInjection, Polarity::kViolation);
+    TorqueCommand wanted{};
+    wanted.torque_nm.fill(0.25);
+    static_cast<void>(run(wanted));
+    wanted.torque_nm = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                        -std::numeric_limits<double>::infinity()};
+    const JointVector torque_nm = run(wanted);
+    EXPECT_EQ(torque_nm[0], 0.25);
+    EXPECT_EQ(torque_nm[1], 0.25 + kControllerStepNm[1]);
+    EXPECT_EQ(torque_nm[2], 0.25 - kControllerStepNm[2]);
 }
 
 TEST_F(DriveGateTest, RunningGateKeepsWritingWhatIsAllowed) {
@@ -117,7 +159,7 @@ TEST_F(DriveGateTest, DeactivatedOrAbortedGateLeavesSafeOutputs) {
     verifies("SWR-SAF-010", Technique::kStateTransition, Polarity::kViolation);
     for (const bool is_aborted : {false, true}) {
         allow(true);
-        command(3.0);
+        command(0.2);
         ASSERT_EQ(sut_.on_execute({}), Status::kOk);
         ASSERT_TRUE(outputs_.torque_enable);
 
@@ -129,7 +171,7 @@ TEST_F(DriveGateTest, DeactivatedOrAbortedGateLeavesSafeOutputs) {
 TEST_F(DriveGateTest, TheStopLoopReplacesTheTorqueOfTheController) {
     verifies("SWR-SAF-025");
     allow(true);
-    command(3.0);
+    command(0.2);
     ASSERT_EQ(sut_.on_execute({}), Status::kOk);
     StopCommand stop{};
     stop.torque_enable = true;
@@ -141,7 +183,8 @@ TEST_F(DriveGateTest, TheStopLoopReplacesTheTorqueOfTheController) {
     command(-14.0);
 
     ASSERT_EQ(sut_.on_execute({}), Status::kOk);
-    EXPECT_EQ(outputs_.torque_nm[1], 3.0) << "the last torque before the stop";
+    EXPECT_EQ(outputs_.torque_nm[1], calc_gravity_torque(state.position_rad)[1])
+        << "no torque of the controller";
     EXPECT_EQ(take(sut_.drive).source, TorqueSource::kStopLoop);
     EXPECT_EQ(take(sut_.drive).stop_setpoint_rad[1], 0.7);
     EXPECT_FALSE(outputs_.brake_release);
@@ -173,7 +216,7 @@ TEST_F(DriveGateTest, AStopThatEndsIsForgotten) {
         feed(sut_.arm_state, moved);
         feed(sut_.stop, stop);
         ASSERT_EQ(sut_.on_execute({}), Status::kOk);
-        EXPECT_EQ(outputs_.torque_nm[0], 0.0) << "held at the new place";
+        EXPECT_NEAR(outputs_.torque_nm[0], 0.0, 1e-12) << "held at the new place";
     }
 }
 
@@ -183,7 +226,7 @@ TEST_F(DriveGateTest, ABrakeTestPushesWithItsShareAgainstClosedBrakes) {
     stop.torque_enable = true;
     stop.torque_source = TorqueSource::kBrakeTest;
     stop.brake_test_share = -0.5;
-    command(3.0);
+    command(0.2);
     feed(sut_.stop, stop);
 
     ASSERT_EQ(sut_.on_execute({}), Status::kOk);

@@ -3,6 +3,8 @@
 // the other with readings, messages and drive commands made here; both sides of each limit.
 #include "joint_monitor.hpp"
 
+#include <cmath>
+
 #include <limits>
 
 #include "arm_limits.hpp"
@@ -222,6 +224,38 @@ TEST_F(JointMonitorTest, SpeedBeyondTheLimitIsReportedInBothDirections) {
     EXPECT_EQ(move(0U, kSafeSpeedRadS[0] * kInside, 8).faults, 0U);
     EXPECT_EQ(move(0U, kSafeSpeedRadS[0] * kOutside, 8).faults, to_bit(ArmFault::kOverspeed));
     EXPECT_EQ(move(0U, -kSafeSpeedRadS[0] * kOutside, 8).faults, to_bit(ArmFault::kOverspeed));
+}
+
+TEST_F(JointMonitorTest, AJointThatWillBeTooFastIsReportedBeforeItIs) {
+    verifies("SWR-SAF-043", Technique::kBoundaryValues, Polarity::kViolation);
+    constexpr double kAcceleration = 20.0;
+    const double added_rad_s = kSpeedPrediction * kAcceleration * 4.0 * kFrameS;
+    for (const double sign : {1.0, -1.0}) {
+        ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
+        place(0U, 0.0);
+        move(0U, 0.0, 5);
+        double speed_rad_s = sign * 0.5;
+        move(0U, speed_rad_s, 10);
+        JointState state{};
+        while (state.faults == 0U && std::fabs(speed_rad_s) < 1.0) {
+            speed_rad_s += sign * kAcceleration * kFrameS;
+            state = move(0U, speed_rad_s, 1);
+        }
+        EXPECT_EQ(state.faults, to_bit(ArmFault::kOverspeed));
+        EXPECT_NEAR(std::fabs(state.velocity_rad_s[0]), kSafeSpeedRadS[0] - added_rad_s,
+                    kAcceleration * kFrameS);
+    }
+}
+
+TEST_F(JointMonitorTest, AJointThatIsTooFastIsReportedWhileItBrakes) {
+    verifies("SWR-SAF-007", Technique::kBoundaryValues, Polarity::kViolation);
+    double speed_rad_s = 1.1;
+    move(0U, speed_rad_s, 10);
+    for (JointState state = move(0U, speed_rad_s, 1); state.velocity_rad_s[0] > kSafeSpeedRadS[0];
+         state = move(0U, speed_rad_s, 1)) {
+        EXPECT_EQ(state.faults, to_bit(ArmFault::kOverspeed));
+        speed_rad_s -= 0.03;
+    }
 }
 
 TEST_F(JointMonitorTest, PositionOutsideTheSafeRangeIsReportedOnBothSides) {

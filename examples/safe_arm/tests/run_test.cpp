@@ -150,7 +150,7 @@ TEST_F(RunTest, PathThatLeavesTheRangeIsStoppedInsideTheMechanicalRange) {
 
         const nlohmann::json summary = read_summary();
         EXPECT_EQ(summary["detected_fault"], "PositionLimit") << row.joint;
-        EXPECT_EQ(summary["reaction"], "Sto") << row.joint;
+        EXPECT_EQ(summary["reaction"], "Ss1") << row.joint;
         EXPECT_EQ(summary["final_state"], "Safe") << row.joint;
         EXPECT_GT(summary["physics"]["min_position_margin_rad"].get<double>(), 0.0) << row.joint;
     }

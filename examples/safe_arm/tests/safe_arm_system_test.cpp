@@ -30,15 +30,15 @@ TEST(SafeArmSystemTest, MeasurementIsJudgedAndAnsweredInItsFrame) {
     EXPECT_TRUE(is_forward(monitor.state, supervisor.arm_state));
     EXPECT_LT(executive.get_view().windows[0].offset, executive.get_view().windows[3].offset)
         << "the gate runs after the supervisor";
-    EXPECT_EQ(executive.get_view().components[executive.get_view().windows[3].first_component], &gate);
+    EXPECT_EQ(executive.get_view().components[executive.get_view().windows[3].first_component + 1U], &gate);
 }
 
-TEST(SafeArmSystemTest, ControllerReachesTheDrivesThroughChannelAndGateOnly) {
+TEST(SafeArmSystemTest, ControllerReachesTheDrivesThroughProtectionAndGateOnly) {
     verifies("SWR-SAF-017", Technique::kErrorGuessing, Polarity::kViolation);
 
     for (const mamori::ConnectionRow& row : executive.get_view().connections) {
         if (row.source == &controller.command) {
-            EXPECT_EQ(row.sink, &channel.in);
+            EXPECT_EQ(row.sink, &command_sender.in);
         }
     }
 }

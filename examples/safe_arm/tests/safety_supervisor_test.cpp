@@ -237,7 +237,7 @@ TEST_F(SafetySupervisorTest, SeverestOfSeveralFaultsDecides) {
     operate();
     state_.is_standing = false;
 
-    state_.faults = to_bit(ArmFault::kEncoderImplausible) | to_bit(ArmFault::kFollowingError);
+    state_.faults = to_bit(ArmFault::kEncoderImplausible) | to_bit(ArmFault::kEncoderStuck);
     EXPECT_EQ(step().state, SafeState::kSafe);
 }
 

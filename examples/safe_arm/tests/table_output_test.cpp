@@ -25,7 +25,7 @@ TEST(TableOutputTest, TheWholeTableIsWrittenWithTheReactionOfEachFault) {
     const nlohmann::json table = nlohmann::json::parse(std::ifstream{path});
     EXPECT_EQ(table["windows"].size(), 4U);
     EXPECT_EQ(table["components"].size(), executive.get_view().components.size());
-    EXPECT_EQ(table["connections"].size(), 12U);
+    EXPECT_EQ(table["connections"].size(), 14U);
     EXPECT_EQ(table["reactions"].size(), kArmFaultCount);
     EXPECT_EQ(table["faults"][0]["name"], "EncoderImplausible");
     EXPECT_EQ(table["reactions"][0]["reaction"], "Ss1");

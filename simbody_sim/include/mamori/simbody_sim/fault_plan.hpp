@@ -18,7 +18,7 @@
 
 namespace mamori::sim {
 
-/// From kControllerHang to kSupervisorHang and kProcessorStops the runner's, the others are faults of the
+/// From kControllerHang to kSupervisorHang and kProcessorStops on, the runner's, the others are faults of the
 /// plant.
 enum class FaultKind : std::uint8_t {
     kNone,
@@ -37,6 +37,8 @@ enum class FaultKind : std::uint8_t {
     kStoIgnored,       ///< the drives ignore safe torque off
     kRelayStuck,       ///< the second switch-off path does not open
     kProcessorStops,   ///< the outputs keep their last values, and nothing services the watchdog
+    kMessageDamaged,   ///< magnitude: bit of each message that is inverted, 0 .. 65535
+    kControllerWrong,  ///< magnitude: number of a wrong controller, a whole number, 0 .. kWrongControllerMax
 };
 
 enum class FaultChannel : std::uint8_t { kA, kB, kBoth };
@@ -50,6 +52,8 @@ enum class FaultSpan : std::uint8_t {
 
 /// Length of a fault that happens once.
 inline constexpr Duration kOnceLength{1000000};
+
+inline constexpr double kWrongControllerMax = 1.0e9;
 
 /// Fraction of its torque that a latent brake_fade takes from the brake.
 inline constexpr double kLatentFade = 0.5;

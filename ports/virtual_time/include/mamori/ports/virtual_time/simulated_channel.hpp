@@ -10,9 +10,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "mamori/kernel/component/component.hpp"
 #include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/payload/bounded_sequence.hpp"
 #include "mamori/kernel/system/system.hpp"
 
 namespace mamori::ports::virtual_time {
@@ -21,7 +23,23 @@ namespace mamori::ports::virtual_time {
 struct ChannelFault {
     bool is_losing{false};  ///< discard messages that arrive now
     Duration delay{0};      ///< minimum delay of messages that arrive now; negative: 0
+    /// Number of a bit that is inverted in messages that arrive now, counted from their first byte; one
+    /// beyond their end begins again at the front. For payloads of bytes.
+    std::optional<std::uint32_t> inverted_bit{};
 };
+
+namespace detail {
+
+template <std::size_t kCapacity>
+void invert_bit(BoundedSequence<std::uint8_t, kCapacity>& bytes, std::uint32_t bit) noexcept {
+    if (bytes.size() > 0U) {
+        bytes[(bit / 8U) % bytes.size()] ^= static_cast<std::uint8_t>(1U << (bit % 8U));
+    }
+}
+template <typename T>
+void invert_bit(T& /*message*/, std::uint32_t /*bit*/) noexcept {}
+
+}  // namespace detail
 
 /// Channel for payload T that stores up to `kCapacity` delayed messages. If it is full, a new message
 /// overwrites the oldest. The channel keeps the order: a message without delay waits for earlier delayed
@@ -65,7 +83,11 @@ class SimulatedChannel final : public Component {
             drop_first();
             ++dropped_count_;
         }
-        slots_[(first_ + count_) % kCapacity] = {message, arrival, fault_.delay};
+        Slot& slot = slots_[(first_ + count_) % kCapacity];
+        slot = {message, arrival, fault_.delay};
+        if (fault_.inverted_bit.has_value()) {
+            detail::invert_bit(slot.message, *fault_.inverted_bit);
+        }
         ++count_;
     }
 
