@@ -51,7 +51,10 @@ constexpr std::array<mamori::safety::AxisRange, mamori::safety::kArmJointCount> 
 inline constexpr mamori::Duration kFrame = 1_ms;
 inline constexpr double kFrameS = 0.001;
 
-/// Safely limited speed (SLS): 90 % of the mechanical speed limit [rad/s]. Motions are planned below 80 %.
+/// Mechanical speed limit [rad/s]: the speed at which the torque that a motor can give in the direction of
+/// its motion has fallen to zero.
+inline constexpr mamori::safety::JointVector kNoLoadSpeedRadS{1.0, 1.0, 2.0, 2.0, 6.28, 6.28, 6.28};
+/// Safely limited speed (SLS): 90 % of the mechanical limit [rad/s]. Motions are planned below 80 %.
 inline constexpr mamori::safety::JointVector kSafeSpeedRadS{0.9, 0.9, 1.8, 1.8, 5.65, 5.65, 5.65};
 /// The speed is judged as it will be when the stop begins to act: its change within 4 frames goes on for 8
 /// ms, from the middle of the measured mean (2 ms), over the confirmation and the rate of torque (2 frames
@@ -75,6 +78,9 @@ inline constexpr mamori::safety::JointVector kTorqueLimitNm{232.0, 232.0, 100.0,
 /// by this much in a frame [N m]. The motions of the example need at most a fifth of it.
 inline constexpr mamori::safety::JointVector kControllerShareNm{60.0, 80.0, 25.0, 35.0, 4.0, 4.0, 4.0};
 inline constexpr mamori::safety::JointVector kControllerStepNm{5.0, 8.0, 2.5, 3.5, 0.3, 0.3, 0.3};
+
+/// Largest difference between the torques of the gravity model and of the arm [N m].
+inline constexpr double kGravityDifferenceNm = 0.05;
 
 /// Frames in a row in which a fault must be seen before it is latched; other faults in the first one.
 inline constexpr std::uint32_t kDiscrepancyFrames = 2U;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drive_gate.hpp"
 
+#include <cmath>
+
 #include "arm_limits.hpp"
 #include "gravity_model.hpp"
 #include "mamori/safety/arm/guards.hpp"
@@ -18,6 +20,15 @@ double hold_near(double center_nm, double wanted_nm, double distance_nm) noexcep
         return center_nm + distance_nm;
     }
     return wanted_nm < center_nm ? center_nm - distance_nm : center_nm;
+}
+
+/// Torque that the drive of a joint can give at this speed [N m]. More would be a torque deviation.
+double calc_available(std::size_t joint, double torque_nm, double speed_rad_s) noexcept {
+    const double share = std::fabs(speed_rad_s) / kNoLoadSpeedRadS[joint];
+    if (!(torque_nm * speed_rad_s > 0.0)) {
+        return kTorqueLimitNm[joint];
+    }
+    return share < 1.0 ? kTorqueLimitNm[joint] * (1.0 - share) : 0.0;
 }
 
 }  // namespace
@@ -51,6 +62,7 @@ Status DriveGate::on_execute(ContextHandle context) noexcept {
 
 JointVector DriveGate::calc_torque(const StopCommand& decision) noexcept {
     JointVector wanted_nm{};
+    const JointState& measured = arm_state.read();
     if (!decision.torque_enable || decision.torque_source != TorqueSource::kStopLoop) {
         stop_loop_.release();
     }
@@ -62,14 +74,15 @@ JointVector DriveGate::calc_torque(const StopCommand& decision) noexcept {
             wanted_nm = limit_controller(command.read().torque_nm);
             break;
         case TorqueSource::kStopLoop:
-            wanted_nm = stop_loop_.step(arm_state.read());
+            wanted_nm = stop_loop_.step(measured);
             break;
         case TorqueSource::kBrakeTest:
             wanted_nm = scale(kTorqueLimitNm, decision.brake_test_share, 0.0);
             break;
     }
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
-        wanted_nm[j] = hold_near(0.0, wanted_nm[j], kTorqueLimitNm[j]);
+        wanted_nm[j] =
+            hold_near(0.0, wanted_nm[j], calc_available(j, wanted_nm[j], measured.velocity_rad_s[j]));
     }
     return wanted_nm;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "arm_limits.hpp"
+#include "gravity_model.hpp"
+#include "mamori/simbody_sim/arm_dynamics.hpp"
 
 namespace safe_arm {
 namespace {
@@ -14,14 +16,36 @@ std::string refuse(const mamori::sim::JointModel& joint, const char* figure, dou
            " " + std::to_string(limit) + ": change the model, or the safe limits in arm_limits.hpp";
 }
 
+/// Poses in which each mass and length has an effect.
+constexpr std::array<JointVector, 3U> kPoses{{{0.0, 0.5, 0.3, 0.9, -0.4, 0.8, 0.2},
+                                              {0.0, -1.2, 1.1, 0.4, 1.3, -0.9, 0.7},
+                                              {0.0, 1.5, -0.6, -1.4, 0.5, 1.2, -1.1}}};
+
+std::string check_gravity(const mamori::sim::ArmModel& model) {
+    mamori::sim::ArmDynamics dynamics{model};
+    for (const JointVector& pose : kPoses) {
+        const JointVector torque_nm = dynamics.calc_gravity_torque(pose);
+        for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+            const double wanted_nm = calc_gravity_torque(pose)[j];
+            if (!mamori::safety::is_within(torque_nm[j] - wanted_nm, kGravityDifferenceNm)) {
+                return "joint " + model.joints[j].name + ": torque against gravity " +
+                       std::to_string(torque_nm[j]) + " N m must be " + std::to_string(wanted_nm) +
+                       " within " + std::to_string(kGravityDifferenceNm) +
+                       ": change masses and lengths of the model, or those of gravity_model.cpp";
+            }
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string check_model(const mamori::sim::ArmModel& model) {
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
         const mamori::sim::JointModel& joint = model.joints[j];
-        if (!(joint.speed_limit_rad_s > kSafeSpeedRadS[j])) {
-            return refuse(joint, "speed_limit_rad_s", joint.speed_limit_rad_s, "above the safe speed",
-                          kSafeSpeedRadS[j]);
+        if (!(joint.speed_limit_rad_s >= kNoLoadSpeedRadS[j])) {
+            return refuse(joint, "speed_limit_rad_s", joint.speed_limit_rad_s, "at least",
+                          kNoLoadSpeedRadS[j]);
         }
         if (!(joint.speed_limit_rad_s * kFrameS < kMaxStepRad[j])) {
             return refuse(joint, "speed_limit_rad_s", joint.speed_limit_rad_s, "below the plausible speed",
@@ -46,7 +70,7 @@ std::string check_model(const mamori::sim::ArmModel& model) {
                           "below a quarter of the channel tolerance", kDiscrepancyRad / 4.0);
         }
     }
-    return {};
+    return check_gravity(model);
 }
 
 EncoderScale get_encoder_scale(const mamori::sim::ArmModel& model) {

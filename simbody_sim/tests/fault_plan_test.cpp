@@ -51,7 +51,7 @@ TEST(FaultPlanTest, AFaultStaysUnlessItIsSaidOtherwise) {
 
 TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
     verifies("SWR-SIM-011", Technique::kEquivalenceClasses);
-    const std::array<std::string, 16U> texts{
+    const std::array<std::string, 18U> texts{
         "kind=none",
         "kind=none,seed=18446744073709551615",
         "kind=encoder_freeze,joint=1,channel=a,at=2",
@@ -67,7 +67,9 @@ TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
         "kind=power_loss,at=1,latent=brake_stuck_open:7",
         "kind=none,latent=sto_ignored,seed=3",
         "kind=brake_stuck_open,joint=2,at=1",
-        "kind=processor_stops,at=1"};
+        "kind=processor_stops,at=1",
+        "kind=message_damaged,at=1,duration=once,magnitude=65535",
+        "kind=controller_wrong,at=1,magnitude=1000000000"};
 
     for (const std::string& text : texts) {
         EXPECT_EQ(to_text(parse(text)), text);
@@ -96,7 +98,7 @@ TEST(FaultPlanTest, EveryKindIsListedOnceAndNoOther) {
     EXPECT_EQ(list_fault_kinds(),
               "none, encoder_freeze, encoder_bit_flip, encoder_bias, torque_runaway, power_loss, brake_fade, "
               "controller_hang, message_lost, message_late, supervisor_hang, brake_stuck_open, "
-              "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops");
+              "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops, message_damaged, controller_wrong");
 }
 
 TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {
@@ -135,7 +137,7 @@ TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {
 
 TEST(FaultPlanTest, BothSidesOfEveryLimit) {
     verifies("SWR-SIM-011", Technique::kBoundaryValues, Polarity::kViolation);
-    const std::array<std::pair<std::string, std::array<const char*, 2U>>, 14U> cases{{
+    const std::array<std::pair<std::string, std::array<const char*, 2U>>, 17U> cases{{
         // accepted, refused
         {"kind=encoder_freeze,channel=a,at=1,joint=", {"1", "0"}},
         {"kind=encoder_freeze,channel=a,at=1,joint=", {"7", "8"}},
@@ -145,6 +147,9 @@ TEST(FaultPlanTest, BothSidesOfEveryLimit) {
         {"kind=encoder_bit_flip,joint=1,channel=a,at=1,magnitude=", {"0", "-1"}},
         {"kind=encoder_bit_flip,joint=1,channel=a,at=1,magnitude=", {"31", "32"}},
         {"kind=encoder_bit_flip,joint=1,channel=a,at=1,magnitude=", {"1", "1.5"}},
+        {"kind=message_damaged,at=1,magnitude=", {"65535", "65536"}},
+        {"kind=message_damaged,at=1,magnitude=", {"0", "-1"}},
+        {"kind=controller_wrong,at=1,magnitude=", {"1000000000", "1000000001"}},
         {"kind=encoder_bias,joint=1,channel=a,at=1,magnitude=", {"-10", "-10.1"}},
         {"kind=torque_runaway,joint=1,at=1,magnitude=", {"1", "1.001"}},
         {"kind=torque_runaway,joint=1,at=1,magnitude=", {"-1", "0"}},

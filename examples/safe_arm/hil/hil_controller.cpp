@@ -6,6 +6,14 @@ namespace safe_arm {
 using mamori::Instant;
 using mamori::safety::SafeState;
 
+void HilController::follow(const mamori::sim::FaultPlan& fault, Instant now) noexcept {
+    const bool is_wrong = fault.kind == mamori::sim::FaultKind::kControllerWrong && is_active(fault, now);
+    if (is_wrong && !wrong_.has_value()) {
+        wrong_.emplace(static_cast<std::uint64_t>(fault.magnitude));
+    }
+    controller_.set_wrong(is_wrong ? &*wrong_ : nullptr);
+}
+
 TorqueCommand HilController::reply(const ControllerInput& input) noexcept {
     const Instant now{input.sent_at_ns};
     JointState state{};

@@ -6,7 +6,10 @@
 #ifndef EXAMPLES_SAFE_ARM_HIL_HIL_CONTROLLER_HPP
 #define EXAMPLES_SAFE_ARM_HIL_HIL_CONTROLLER_HPP
 
+#include <optional>
+
 #include "hil_messages.hpp"
+#include "mamori/simbody_sim/fault_plan.hpp"
 #include "motion_controller.hpp"
 
 namespace safe_arm {
@@ -20,10 +23,13 @@ class HilController final {
         controller_.configure(track, law, motion_start);
     }
 
+    /// Before reply(). @param[in] fault replaces the controller at `now` if it is controller_wrong.
+    void follow(const mamori::sim::FaultPlan& fault, mamori::Instant now) noexcept;
     TorqueCommand reply(const ControllerInput& input) noexcept;
 
   private:
     MotionController controller_;
+    std::optional<WrongController> wrong_{};
     mamori::OutPort<JointState> state_{mamori::kNoOwner, "state"};
     mamori::OutPort<StopCommand> stop_{mamori::kNoOwner, "stop"};
 };

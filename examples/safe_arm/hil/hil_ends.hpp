@@ -99,6 +99,7 @@ inline void reply(HilController& controller, ControllerEnd& end, const mamori::s
     const bool is_hanging = fault.kind == mamori::sim::FaultKind::kControllerHang &&
                             is_active(fault, mamori::Instant{input.sent_at_ns});
     if (!is_hanging) {
+        controller.follow(fault, mamori::Instant{input.sent_at_ns});
         end.send(controller.reply(input), static_cast<std::uint64_t>(input.sent_at_ns / kFrame.ns), now);
     }
 }

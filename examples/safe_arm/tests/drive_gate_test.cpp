@@ -3,6 +3,7 @@
 // the other.
 #include "drive_gate.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "arm_limits.hpp"
@@ -143,6 +144,28 @@ TEST_F(DriveGateTest, WhatIsNoNumberLeavesTheTorqueAndInfinityMovesItByAStep) {
     EXPECT_EQ(torque_nm[0], 0.25);
     EXPECT_EQ(torque_nm[1], 0.25 + kControllerStepNm[1]);
     EXPECT_EQ(torque_nm[2], 0.25 - kControllerStepNm[2]);
+}
+
+TEST_F(DriveGateTest, AMovingJointGetsTheTorqueThatItsDriveCanGive) {
+    verifies("SWR-SAF-009", Technique::kBoundaryValues, Polarity::kViolation);
+    StopCommand stop{};
+    stop.torque_enable = true;
+    stop.torque_source = TorqueSource::kBrakeTest;
+    for (const double share : {0.0, 0.25, 1.0, 1.5}) {
+        for (const double sign : {1.0, -1.0}) {
+            JointState state{};
+            state.velocity_rad_s[3] = sign * share * kNoLoadSpeedRadS[3];
+            feed(sut_.arm_state, state);
+            stop.brake_test_share = sign;
+            feed(sut_.stop, stop);
+            ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+            EXPECT_NEAR(outputs_.torque_nm[3], sign * kTorqueLimitNm[3] * std::max(0.0, 1.0 - share), 1e-9);
+            stop.brake_test_share = -sign;
+            feed(sut_.stop, stop);
+            ASSERT_EQ(sut_.on_execute({}), Status::kOk);
+            EXPECT_EQ(outputs_.torque_nm[3], -sign * kTorqueLimitNm[3]) << "against the motion";
+        }
+    }
 }
 
 TEST_F(DriveGateTest, RunningGateKeepsWritingWhatIsAllowed) {

@@ -32,12 +32,12 @@ TEST_F(ModelCheckTest, ShippedModelEnclosesTheSafeLimits) {
     EXPECT_EQ(check_model(model_), "");
 }
 
-TEST_F(ModelCheckTest, MachineSlowerThanTheSafeSpeedIsRefused) {
+TEST_F(ModelCheckTest, MachineSlowerThanItsLimitIsRefused) {
     verifies("SWR-SAF-003", Technique::kBoundaryValues, Polarity::kViolation);
-    model_.joints[1].speed_limit_rad_s = kSafeSpeedRadS[1] + 1.0e-9;
+    model_.joints[1].speed_limit_rad_s = kNoLoadSpeedRadS[1];
     EXPECT_EQ(check_model(model_), "");
 
-    model_.joints[1].speed_limit_rad_s = kSafeSpeedRadS[1];
+    model_.joints[1].speed_limit_rad_s = kNoLoadSpeedRadS[1] - 1.0e-9;
     expect_refused("J2", "speed_limit_rad_s");
 }
 
@@ -64,6 +64,22 @@ TEST_F(ModelCheckTest, RangeOnEitherSideTorqueAndCoarseEncoderAreJudged) {
     model_ = sound;
     model_.joints[4].encoder_b_counts_per_rad = 4.0 / kDiscrepancyRad;
     expect_refused("J5", "encoder step");
+}
+
+TEST_F(ModelCheckTest, AnArmWithOtherGravityTorquesIsRefused) {
+    verifies("SWR-SAF-045", Technique::kBoundaryValues, Polarity::kViolation);
+    const mamori::sim::ArmModel sound = model_;
+    for (std::size_t j = 1U; j < kArmJointCount; ++j) {
+        model_ = sound;
+        model_.joints[j].link.mass_kg += 0.2;
+        EXPECT_NE(check_model(model_).find("torque against gravity"), std::string::npos) << j;
+        model_ = sound;
+        model_.joints[j].link.center_of_mass_m[2] += 0.1;
+        EXPECT_NE(check_model(model_).find("torque against gravity"), std::string::npos) << j;
+        model_ = sound;
+        model_.joints[j].link.mass_kg += 1.0e-4;
+        EXPECT_EQ(check_model(model_), "") << j;
+    }
 }
 
 }  // namespace

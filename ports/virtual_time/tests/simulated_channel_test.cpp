@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the channel passes messages on in order, and loses and delays exactly those it is told to.
+// Goal: the channel passes messages on in order, and loses, delays and damages exactly those it is told to.
 // Method: cycles of 10 ns by hand; both sides of a delay; the full queue; faults that come and go.
 #include "mamori/ports/virtual_time/simulated_channel.hpp"
 
@@ -62,6 +62,33 @@ TEST_F(SimulatedChannelTest, WhileLosingNothingLeavesAndNothingComesLater) {
     sut_.set_fault({});
 
     EXPECT_EQ(run_cycles({kNothing, 4}), (Messages{kNothing, 4}));
+}
+
+TEST(SimulatedChannelOfBytesTest, ADamagedMessageHasOneInvertedBit) {
+    verifies("SWR-VTM-004", Technique::kFaultInjection);
+    using Bytes = BoundedSequence<std::uint8_t, 4U>;
+    SimulatedChannel<Bytes, 3U> sut{"channel"};
+    OutPort<Bytes> source{kNoOwner, "source"};
+    const auto send = [&](std::size_t size) {
+        Bytes message{};
+        EXPECT_EQ(message.resize(size), Status::kOk);
+        source.write(message);
+        EXPECT_TRUE(source.publish({}));
+        sut.in.take(source.get_published_sample());
+        EXPECT_EQ(sut.on_execute({}), Status::kOk);
+        EXPECT_TRUE(sut.out.publish({}));
+        return sut.out.get_published();
+    };
+    ChannelFault fault{};
+    fault.inverted_bit = 19U;
+    sut.set_fault(fault);
+    const Bytes damaged = send(3U);
+    EXPECT_EQ(damaged[0], 0U);
+    EXPECT_EQ(damaged[2], 8U);
+    EXPECT_EQ(send(2U)[0], 8U) << "from the front again";
+    EXPECT_EQ(send(0U).size(), 0U);
+    sut.set_fault({});
+    EXPECT_EQ(send(3U)[2], 0U);
 }
 
 TEST_F(SimulatedChannelTest, ADelayedMessageLeavesInTheFirstCycleThatIsLateEnough) {

@@ -35,6 +35,8 @@ FAULT_HELP = """KIND[,key=value...]; default: none
   encoder_bias      joint channel magnitude=RAD, -10 to 10, not 0
   torque_runaway    joint magnitude=FRACTION of the torque limit, -1 to 1, not 0
   message_late      magnitude=SECONDS, above 0 to 10
+  message_damaged   magnitude=BIT of each message, 0 to 65535
+  controller_wrong  magnitude=NUMBER of a wrong controller, 0 to 1e9
   message_lost, power_loss, controller_hang, supervisor_hang, processor_stops, none
 Each kind except none takes at=SECONDS of the motion, before its end, and duration=SECONDS; default: to the end.
 A second fault that shows nothing by itself: latent=brake_stuck_open:JOINT,

@@ -26,8 +26,8 @@ PROCESSES = ("kernel", "controller", "plant")
 MESSAGE_FAULT = "message_lost"
 """The fault of the program that an error on a link replaces."""
 
-PROCESSOR_FAULT = "processor_stops"
-"""A fault of the program that the kill of a process replaces."""
+REPLACED_FAULTS = ("processor_stops", "message_damaged")
+"""Faults of the program that the kill of a process and an error on a link replace."""
 
 AFTER_S = 1.2
 """Observation time after an error on a link or a killed process [s]: standstill is observed for at least 0.5 s."""
@@ -76,7 +76,7 @@ def list_cases(plan_path: Path, motion: Motion) -> tuple[HilCase, ...]:
     plan = load_plan(plan_path)
     assert isinstance(plan, ArmPlan)
     faults = [HilCase(_limit(case, plan, motion)) for case in resolve(select(plan), motion)
-              if case.fault is None or case.fault.kind != PROCESSOR_FAULT]  # fmt: skip
+              if case.fault is None or case.fault.kind not in REPLACED_FAULTS]  # fmt: skip
     kinds = [(lasting, error, link) for lasting in (True, False) for error in ERRORS for link in LINKS]
     errors = [_make_error(plan, motion, link, error, lasting, number) for number, (lasting, error, link) in enumerate(kinds)]
     return tuple(_interleave(faults, errors))

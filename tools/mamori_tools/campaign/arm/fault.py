@@ -43,6 +43,8 @@ KINDS: Mapping[str, Uses] = {
     "sto_ignored": Uses(),
     "relay_stuck": Uses(),
     "processor_stops": Uses(),
+    "message_damaged": Uses(magnitude=True),
+    "controller_wrong": Uses(magnitude=True),
 }
 LATENT_KINDS = ("brake_stuck_open", "brakes_stuck_open", "brake_fade", "sto_ignored", "relay_stuck")
 
