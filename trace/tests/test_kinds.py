@@ -20,6 +20,7 @@ LINKS = "requirements/schema/links.toml"
 TECHNIQUES = "requirements/schema/techniques.toml"
 SYSTEM = "requirements/system/system.md"
 SOFTWARE = "requirements/software/software.md"
+REFINED = ("refinement-missing", "integration-missing")
 KINDS = {"need", "hazard", "safety_goal", "requirement", "architecture", "assumption", "design", "code", "test", "result", "coverage", "proof",
          "timing", "campaign", "fmea_row", "deviation", "review"}  # fmt: skip
 
@@ -56,6 +57,51 @@ def test_safety_goals_and_architecture_elements_stand_between_the_levels(typed: 
 
     assert (outcome.status, outcome.content["findings"]) == (0, [])
     assert [outcome.get_verdict(name) for name in ("SG-001", "ARC-001", "HAZ-001")] == ["verified"] * 3
+
+
+def refine(typed: Sample) -> None:
+    """Gives the hazard a goal, and the goal an architecture element whose tests are to be integration tests."""
+    typed.write("requirements/schema/rules.toml", '# [[rule]]\nschema = "mamori.rules/1"\n' + "".join(f'[rule.{rule}]\nall = "error"\n' for rule in REFINED))
+    typed.append("requirements/safety/hazards.md", format_item("SG-001", "Stop", "The arm shall stop.", Parents="HAZ-001", Verify="review"))
+    typed.append(SYSTEM, format_item("ARC-001", "Layer", "The arm shall have a layer.", Parents="SYS-001", Design="docs/design/arm.md#hazards"))
+    typed.replace(SYSTEM, "- Parents: STK-001, HAZ-001", "- Parents: STK-001, SG-001")
+    typed.replace(SOFTWARE, "- Parents: SYS-001\n", "- Parents: ARC-001\n")
+    typed.review()
+
+
+@pytest.mark.parametrize(("tests", "rules"), [("tools", set()), ("safety", {"integration-missing"})])
+@pytest.mark.verifies("SWR-TRC-113", technique="equivalence_classes", polarity="nominal")
+def test_only_an_integration_test_shows_an_architecture_element(typed: Sample, trace: Callable, tests: str, rules: set[str]) -> None:
+    refine(typed)
+    typed.write("requirements/schema/code.toml", f'# [[code]]\nschema = "mamori.code/1"\nintegration = ["{tests}"]\n')
+    typed.replace("tools/tests/test_offline.py", "SWR-TLS-001", "ARC-001")
+
+    outcome = trace("check", "--root", typed.root, "--output", "json")
+
+    assert outcome.rules & set(REFINED) == rules
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("- Parents: STK-001, SG-001", "- Parents: STK-001"), ("- Parents: SYS-001\n", "- Parents: SYS-003\n")]
+)
+@pytest.mark.verifies("SWR-TRC-113", technique="fault_injection", polarity="violation")
+def test_a_goal_without_architecture_below_it_is_found(typed: Sample, trace: Callable, old: str, new: str) -> None:
+    refine(typed)
+    typed.replace(SYSTEM, old, new)
+
+    findings = trace("check", "--root", typed.root, "--output", "json").content["findings"]
+
+    assert [each["item"] for each in findings if each["rule"] == "refinement-missing"] == ["SG-001"]
+
+
+@pytest.mark.verifies("SWR-TRC-113", technique="error_guessing", polarity="violation")
+def test_a_refining_level_that_does_not_exist_is_one_clear_line(typed: Sample, trace: Callable) -> None:
+    typed.replace("requirements/schema/items.toml", 'refined_by = "SG"', 'refined_by = "SX"')
+
+    outcome = trace("check", "--root", typed.root)
+
+    assert (outcome.status, outcome.err.count("\n")) == (2, 1)
+    assert "level HAZ: refined_by names 'SX'" in outcome.err
 
 
 @pytest.mark.verifies("SWR-TRC-028", technique="fault_injection", polarity="violation")

@@ -68,7 +68,7 @@ def test_the_data_names_items_with_their_links_results_code_cases_and_findings(s
 def test_boxes_of_the_v_and_bars_of_the_dashboard_lead_to_their_rows(page: Callable[[], str]) -> None:
     text = page()
 
-    for part in ('href="#matrix" data-query="level=STK&amp;level=HAZ"', 'href="#tests" data-query="kind=unit"',
+    for part in ('href="#matrix" data-query="level=STK&amp;level=HAZ&amp;level=SG"', 'href="#tests" data-query="kind=unit"',
                  'href="#matrix" data-query="level=SYS&amp;verdict=verified"', 'href="#tests" data-query="kind=unit&amp;status=passed"',
                  'data-query="sil=2">SIL 2</a> <span class="note"><b>5</b> of 5 verified',
                  'data-query="sil=QM">QM</a> <span class="note"><b>3</b> of 3 verified'):  # fmt: skip

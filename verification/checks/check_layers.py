@@ -26,6 +26,7 @@ from verification.checks.deviations import check_deviations
 from verification.checks.layer_table import HOST_SOURCES, LISTED_STD, TEST_INCLUDES, Layer, find_package, get_layer, get_module
 from verification.checks.manual_samples import check_samples
 from verification.checks.target_limits import MEASURED_HEADERS, check_headers, check_size, check_words
+from verification.checks.unused_headers import check_unused
 from verification.checks.wording import WORDING, check_wording
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -66,10 +67,11 @@ def check_tree(root: Path) -> list[Finding]:
 
 
 def check_texts(root: Path) -> list[Finding]:
-    """Findings about the wording of all texts below `root`, according to the list of that tree, and about the samples of its manual."""
+    """Findings about the wording of all texts below `root`, according to the list of that tree, and about lists and samples of its manual."""
     file = root / WORDING
     wording = [Finding(name, line, "wording", message) for name, line, message in check_wording(root, file)] if file.exists() else []
-    return wording + [Finding(name, line, "sample", message) for name, line, message in check_samples(root)]
+    unused = [Finding(name, line, "unused", message) for name, line, message in check_unused(root)]
+    return wording + unused + [Finding(name, line, "sample", message) for name, line, message in check_samples(root)]
 
 
 def _is_target_code(root: Path, path: Path) -> bool:

@@ -43,6 +43,21 @@ TEST(SafeArmSystemTest, ControllerReachesTheDrivesThroughProtectionAndGateOnly) 
     }
 }
 
+TEST(SafeArmSystemTest, ThePermissionOfTheGateComesFromTheSafetyCycleOnly) {
+    verifies("ARC-004", Technique::kInterface);
+    const mamori::safety::SafetyCycle& cycle = supervisor;
+
+    std::size_t permissions = 0U;
+    for (const mamori::ConnectionRow& row : executive.get_view().connections) {
+        if (row.sink == &gate.stop) {
+            EXPECT_EQ(row.source, &supervisor.stop);
+            ++permissions;
+        }
+    }
+    EXPECT_EQ(permissions, 1U);
+    EXPECT_EQ(executive.get_view().components[executive.get_view().windows[0].first_component + 2U], &cycle);
+}
+
 TEST(ArmReactionsTest, EachFaultAloneLeadsToItsRow) {
     verifies("SWR-SAF-002", Technique::kFaultInjection, Polarity::kViolation);
     for (std::size_t i = 0U; i < kArmFaultCount; ++i) {

@@ -17,7 +17,7 @@ from mamori_trace.base.nearest_names import nearest_names
 POLARITIES = ("nominal", "violation")
 
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
-_REQUIREMENT = re.compile(r"(SYS|SWR-[A-Z]+)-\d{3}")
+_REQUIREMENT = re.compile(r"(SYS|ARC|SWR-[A-Z]+)-\d{3}")
 
 AnyScenario = TypeVar("AnyScenario", bound=Scenario)
 
@@ -55,7 +55,7 @@ def read_requirements(node: Node) -> dict[str, str]:
     found: dict[str, str] = {}
     for requirement, polarity in node.as_mapping().items():
         if not _REQUIREMENT.fullmatch(requirement):
-            raise polarity.error(f"'{requirement}' is no requirement id; write SYS-nnn or SWR-<AREA>-nnn")
+            raise polarity.error(f"'{requirement}' is no requirement id; write SYS-nnn, ARC-nnn or SWR-<AREA>-nnn")
         found[requirement] = read_name(polarity, POLARITIES)
     if not found:
         raise node.error("names none; name what the scenario verifies")

@@ -90,11 +90,12 @@ def _make_mapping(table: dict[str, Any], source: str) -> Mapping:
 
 def _make_level(key: str, row: dict[str, Any]) -> Level:
     """A level of the user's table. `id` is the pattern of the ids; without a pattern, the name of the group applies."""
+    flags: dict[str, Any] = {flag: bool(row.get(flag, False)) for flag in _FLAGS}
     return Level(
         key=key,
         name=str(row.get("name", key)),
         pattern=re.compile(row.get("id", "")),
         parents=tuple(row.get("parents", ())),
         also=tuple(row.get("also", ())),
-        **{flag: bool(row.get(flag, False)) for flag in _FLAGS},
+        **flags,
     )

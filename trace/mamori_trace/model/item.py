@@ -17,7 +17,7 @@ RETIRED = "retired"
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """Rules of one item level, as requirements/schema/items.toml states them."""
+    """Rules of one item level, as requirements/schema/items.toml states them. `refined_by`: a level, or empty."""
 
     key: str
     name: str
@@ -30,6 +30,8 @@ class Level:
     from_children: bool
     through_children: bool
     hazard: bool = False
+    refined_by: str = ""
+    integrated: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,6 +22,9 @@ def read_schema(root: Path) -> Schema:
         if table.get("schema") != "mamori.items/1":
             raise InputError(f"{path}: schema is {table.get('schema')!r}; this tool reads 'mamori.items/1'")
         levels = {key: _read_level(key, row) for key, row in table["level"].items()}
+        for level in levels.values():
+            if level.refined_by and level.refined_by not in levels:
+                raise InputError(f"{path}: level {level.key}: refined_by names '{level.refined_by}', which is not a level")
         lists = {name: tuple(str(word) for word in table[name]) for name in _LISTS}
         lists |= {name: tuple(str(word) for word in table[name]) for name in _MAYBE_LISTS if name in table}
         return Schema(levels=levels, **lists)
@@ -47,4 +50,6 @@ def _read_level(key: str, row: dict) -> Level:
         from_children=bool(row["from_children"]),
         through_children=bool(row["through_children"]),
         hazard=bool(row.get("hazard", False)),
+        refined_by=str(row.get("refined_by", "")),
+        integrated=bool(row.get("integrated", False)),
     )

@@ -74,7 +74,7 @@ def make_boxes(project: Project, verdicts: dict[str, Verdict], layout: Layout) -
     cases = cases or [result.status for result in project.results if result.kind == CAMPAIGN]
     files = len({tag.place.file for tag in project.tags})
     system = "System, assumptions" if any(item.level == "AOU" for item in project.items.values()) else "System requirements"
-    left = (("Needs and hazards", ("STK", "HAZ")), (system, ("SYS", "AOU")), ("Software requirements", ("SWR",)))
+    left = (("Needs and hazards", ("STK", "HAZ", "SG")), (system, ("SYS", "AOU", "ARC")), ("Software requirements", ("SWR",)))
     right = (("Fault campaign", cases, "cases", "#campaign"), ("Integration tests", results[INTEGRATION], "tests", "#tests?kind=integration"),
              ("Unit tests", results[UNIT], "tests", "#tests?kind=unit"))  # fmt: skip
     boxes: list[Box] = []

@@ -34,5 +34,25 @@ TEST(TwoNodesTest, DelaysAndLossesWithinTheToleranceAreNoFault) {
     EXPECT_GT(outcome.lost, 800U);
 }
 
+TEST(TwoNodesTest, NoticesOfOnePeriodProveANodeThatRuns) {
+    verifies("ARC-009", Technique::kInterface);
+    const Outcome outcome = run_two_nodes(5'000U, 0U, 5U);
+
+    EXPECT_EQ(outcome.sent, 1'000U);
+    EXPECT_EQ(outcome.invented, 0U);
+}
+
+TEST(TwoNodesTest, NoticesAloneShowEachFailureOfANode) {
+    verifies("ARC-009", Technique::kFaultInjection, Polarity::kViolation);
+    const Outcome outcome = run_two_nodes(10'000U, 10U, 6U);
+
+    std::uint32_t injected = 0U;
+    for (const std::uint32_t count : outcome.injected) {
+        injected += count;
+    }
+    EXPECT_EQ(injected, 10U);
+    EXPECT_EQ(outcome.missed, 0U);
+}
+
 }  // namespace
 }  // namespace mamori::verification::notice

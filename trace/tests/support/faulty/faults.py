@@ -254,6 +254,8 @@ FAULTS = {
 }
 WITHOUT_FAULT = {
     "technique-unshown": "about the project's table of techniques, not about an item; seeded in tests/support/seeds",
+    "refinement-missing": "off unless a pack of the project demands it; seeded in tests/support/seeds",
+    "integration-missing": "off unless a pack of the project demands it; seeded in tests/support/seeds",
     "link-kind": "the generated projects have no schema of kinds; seeded in tests/support/seeds",
     "id-unrecorded": "its place is a line of the review lock, which the tool writes and sorts; seeded in tests/support/seeds",
     "evidence-altered": "seeded in test_evidence_records.py",

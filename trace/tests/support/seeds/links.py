@@ -11,6 +11,7 @@ from trace_sample import Sample, format_gtest_case, format_item, format_record
 from seeds.places import GTEST, HEADER, SOFTWARE, SYSTEM, Seed, find_line
 
 DECOMPOSITION = "requirements/decomposition.toml"
+HAZARDS = "requirements/safety/hazards.md"
 IDS = "requirements/ids.lock"
 LINKS = "requirements/schema/links.toml"
 LOCK = "requirements/trace.lock"
@@ -105,6 +106,22 @@ def no_design(s: Sample) -> Seed:
     return "SWR-SUP-001", SOFTWARE, find_line(s, SOFTWARE, "- Design: -")
 
 
+def demand(s: Sample, rule: str) -> None:
+    s.write(PACK, f'# [[rule]]\nschema = "mamori.rules/1"\n[rule.{rule}]\nall = "error"\n')
+
+
+def no_goal(s: Sample) -> Seed:
+    demand(s, "refinement-missing")
+    return "HAZ-001 is refined by no SG item", HAZARDS, find_line(s, HAZARDS, "## HAZ-001")
+
+
+def architecture_without_integration(s: Sample) -> Seed:
+    demand(s, "integration-missing")
+    line = s.append(SYSTEM, format_item("ARC-001", "Layer", "The supervisor shall be a layer.", Parents="SYS-001", Verify="review"))
+    s.replace(SOFTWARE, "- Parents: SYS-001\n", "- Parents: ARC-001\n")
+    return "ARC-001 has no nominal integration test", SYSTEM, line + 8
+
+
 def code_for_a_need(s: Sample) -> Seed:
     copy_links(s)
     return "STK-001, which is of the kind need", HEADER, s.replace(HEADER, "SWR-SUP-002", "SWR-SUP-002, STK-001")
@@ -112,8 +129,7 @@ def code_for_a_need(s: Sample) -> Seed:
 
 def hazard_without_design(s: Sample) -> Seed:
     copy_links(s)
-    file = "requirements/safety/hazards.md"
-    return "HAZ-001 says no Design", file, s.replace(file, "- Design: docs/design/arm.md#hazards", "- Design: -")
+    return "HAZ-001 says no Design", HAZARDS, s.replace(HAZARDS, "- Design: docs/design/arm.md#hazards", "- Design: -")
 
 
 def suspect(s: Sample) -> Seed:
@@ -153,6 +169,8 @@ SEEDS = (
     (design_file, "design-link", True),
     (design_heading, "design-link", True),
     (no_design, "design-missing", True),
+    (no_goal, "refinement-missing", True),
+    (architecture_without_integration, "integration-missing", True),
     (code_for_a_need, "link-kind", True),
     (hazard_without_design, "link-kind", True),
     (suspect, "suspect-link", False),
