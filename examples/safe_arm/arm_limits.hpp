@@ -56,12 +56,12 @@ inline constexpr double kFrameS = 0.001;
 inline constexpr mamori::safety::JointVector kNoLoadSpeedRadS{1.0, 1.0, 2.0, 2.0, 6.28, 6.28, 6.28};
 /// Safely limited speed (SLS): 90 % of the mechanical limit [rad/s]. Motions are planned below 80 %.
 inline constexpr mamori::safety::JointVector kSafeSpeedRadS{0.9, 0.9, 1.8, 1.8, 5.65, 5.65, 5.65};
-/// The speed is judged as it will be when the stop begins to act: its change within 4 frames goes on for 8
+/// The speed is checked as it will be when the stop begins to act: its change within 4 frames continues for 8
 /// ms, from the middle of the measured mean (2 ms), over the confirmation and the rate of torque (2 frames
 /// each), with 2 ms of margin.
 inline constexpr double kSpeedPrediction = 2.0;
 /// From the detection of a fault to the end of the travel at the measured speed: confirmation and one frame,
-/// and half of the ramp of a stop. Brakes without a ramp need less. A joint that would leave the safe range
+/// and a third of the ramp of a stop. Brakes without a ramp need less. A joint that would leave the safe range
 /// within this time is stopped at once.
 inline constexpr mamori::Duration kStopTime = 90_ms;
 /// Safely limited position (SLP): 2 degrees inside the mechanical range, symmetric [rad].
@@ -95,7 +95,7 @@ inline constexpr double kStuckTravelRad = 0.004;
 /// Share of the torque limit by which measured and commanded torque may differ [-].
 inline constexpr double kTorqueDeviationShare = 0.15;
 inline constexpr auto kSafeRange = make_ranges(kSafePositionRad);
-/// Channel B is judged against a position of channel A. When A freezes, B leaves it by one step per frame: it
+/// Channel B is checked against a position of channel A. When A freezes, B leaves it by one step per frame: it
 /// must stay plausible until the discrepancy is confirmed, or the sound channel would be the distrusted one.
 inline constexpr mamori::safety::JointVector kMaxStepBRad =
     scale(kMaxStepRad, kDiscrepancyFrames, kDiscrepancyRad);
@@ -108,7 +108,7 @@ inline constexpr double kBumplessRad = 0.002;
 /// A joint below this speed stands [rad/s]; the confirmation time hides the step of the coarser encoder.
 inline constexpr double kStandstillRadS = 0.02;
 
-/// Messages of the controller that may be lost in a row, and the age at which one is stale: it is judged in
+/// Messages of the controller that may be lost in a row, and the age at which one is stale: it is checked in
 /// the frame after the one in which it was sent.
 inline constexpr std::uint32_t kCommandLossesMax = 2U;
 inline constexpr mamori::Duration kCommandAgeMax{kFrame.ns * (1 + kCommandLossesMax)};

@@ -12,7 +12,7 @@
 namespace safe_arm {
 
 /// @param[in] position_rad of the joints, finite.
-/// @return torque of each joint at which the arm stands still [N m], without friction.
+/// @return torque of each joint that holds the arm [N m], without friction.
 /// Calling context: any; no state. Time: O(joints), with one sine and one cosine each.
 JointVector calc_gravity_torque(const JointVector& position_rad) noexcept;
 

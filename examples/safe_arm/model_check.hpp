@@ -12,7 +12,7 @@
 namespace safe_arm {
 
 /// @return empty when the safe limits fit; else one line that names joint, figure and limit.
-/// @satisfies SWR-SAF-003
+/// @satisfies SWR-SAF-003, SWR-SAF-045
 std::string check_model(const mamori::sim::ArmModel& model);
 
 /// Encoder resolutions of the model.

@@ -47,7 +47,7 @@ Status MotionController::on_execute(ContextHandle context) noexcept {
         law_->calc_torque(setpoint.position_rad, setpoint.velocity_rad_s, setpoint.acceleration_rad_s2,
                           measured.position_rad, measured.velocity_rad_s);
     if (wrong_ != nullptr) {
-        wrong_->spoil(result, measured);
+        wrong_->corrupt(result, measured);
     }
     command.write(result);
     return Status::kOk;

@@ -37,7 +37,7 @@ class MotionController final : public mamori::Component {
     void configure(const MotionTrack& track, mamori::sim::ComputedTorqueController& law,
                    mamori::Instant motion_start) noexcept;
 
-    /// From the next cycle on. @param[in] wrong spoils each command; nullptr: none. Must outlive its use.
+    /// From the next cycle on. @param[in] wrong corrupts each command; nullptr: none. Must outlive its use.
     void set_wrong(WrongController* wrong) noexcept { wrong_ = wrong; }
 
     /// @return kOk; kPreconditionNotMet (not configured).

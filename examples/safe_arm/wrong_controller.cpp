@@ -53,11 +53,11 @@ double WrongController::draw(double low, double high) noexcept {
     return low + (high - low) * static_cast<double>(draw() >> 11U) * kStep;
 }
 
-void WrongController::spoil(TorqueCommand& command, const JointState& measured) noexcept {
+void WrongController::corrupt(TorqueCommand& command, const JointState& measured) noexcept {
     past_nm_[frame_ % kDelayMax] = command.torque_nm;
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
         if (joints_[j]) {
-            command.torque_nm[j] = spoil(command.torque_nm[j], j, measured.velocity_rad_s[j]);
+            command.torque_nm[j] = corrupt(command.torque_nm[j], j, measured.velocity_rad_s[j]);
         }
     }
     if (is_echoing_) {
@@ -66,7 +66,7 @@ void WrongController::spoil(TorqueCommand& command, const JointState& measured) 
     ++frame_;
 }
 
-double WrongController::spoil(double torque_nm, std::size_t joint, double speed_rad_s) noexcept {
+double WrongController::corrupt(double torque_nm, std::size_t joint, double speed_rad_s) noexcept {
     const double limit_nm = kTorqueLimitNm[joint];
     const double speed_share = speed_rad_s / kSafeSpeedRadS[joint];
     const double time_s = static_cast<double>(frame_) * kFrameS;

@@ -41,7 +41,7 @@ class WrongController final {
 
     /// One frame. @param[in,out] command of the sound controller. @param[in] measured as the controller sees
     /// it.
-    void spoil(TorqueCommand& command, const JointState& measured) noexcept;
+    void corrupt(TorqueCommand& command, const JointState& measured) noexcept;
 
     Wrong get_kind() const noexcept { return kind_; }
 
@@ -49,7 +49,7 @@ class WrongController final {
     std::uint64_t draw() noexcept;
     /// Uniform in [low, high).
     double draw(double low, double high) noexcept;
-    double spoil(double torque_nm, std::size_t joint, double speed_rad_s) noexcept;
+    double corrupt(double torque_nm, std::size_t joint, double speed_rad_s) noexcept;
 
     std::uint64_t random_;
     Wrong kind_{};

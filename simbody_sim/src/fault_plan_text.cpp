@@ -173,7 +173,7 @@ double to_magnitude(FaultKind kind, const std::string& text) {
             break;
         case FaultKind::kControllerWrong:
             demand(value == std::floor(value) && value >= 0.0 && value <= kWrongControllerMax,
-                   "a whole number from 0 to 1e9");
+                   "an integer from 0 to 1e9");
             break;
         case FaultKind::kNone:
         case FaultKind::kEncoderFreeze:

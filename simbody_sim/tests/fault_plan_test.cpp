@@ -95,10 +95,11 @@ TEST(FaultPlanTest, MisspeltWordsAreRefusedWithTheNearestOne) {
 TEST(FaultPlanTest, EveryKindIsListedOnceAndNoOther) {
     verifies("SWR-SIM-015");
 
-    EXPECT_EQ(list_fault_kinds(),
-              "none, encoder_freeze, encoder_bit_flip, encoder_bias, torque_runaway, power_loss, brake_fade, "
-              "controller_hang, message_lost, message_late, supervisor_hang, brake_stuck_open, "
-              "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops, message_damaged, controller_wrong");
+    EXPECT_EQ(
+        list_fault_kinds(),
+        "none, encoder_freeze, encoder_bit_flip, encoder_bias, torque_runaway, power_loss, brake_fade, "
+        "controller_hang, message_lost, message_late, supervisor_hang, brake_stuck_open, "
+        "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops, message_damaged, controller_wrong");
 }
 
 TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {

@@ -44,7 +44,7 @@ TEST(GravityModelTest, AnUprightArmNeedsAlmostNoTorque) {
     const JointVector torque_nm = calc_gravity_torque({});
     for (const std::size_t j : {0U, 1U, 3U, 4U, 5U, 6U}) {
         EXPECT_NEAR(torque_nm[j], 0.0, 1e-12)
-            << j << ": the wrist is 2.5 mm beside the axis of the arm, in x";
+            << j << ": the wrist is 2.5 mm next to the axis of the arm, in x";
     }
 }
 

@@ -39,7 +39,7 @@ struct Outcome {
     bool is_complete{false};
     bool was_operational{false};  ///< when the wrong controller took over
     SafeState state{};
-    double speed_share{0.0};  ///< greatest speed, of the mechanical limit of its joint
+    double speed_share{0.0};  ///< maximum speed, of the mechanical limit of its joint
     double margin_rad{0.0};
     double drift_rad{0.0};
     bool has_stood{false};
@@ -198,9 +198,8 @@ TEST(WrongControllersTest, NoneExceedsAMechanicalLimitAndTheArmIsHeld) {
             pipe = begin_attack(*loaded.model, first + begun);
         }
     }
-    std::printf(
-        "%d controllers, %d took over in operation, %d stopped; greatest speed %.1f %% of its limit\n", count,
-        operational_count, stopped_count, 100.0 * speed_share);
+    std::printf("%d controllers, %d took over in operation, %d stopped; maximum speed %.1f %% of its limit\n",
+                count, operational_count, stopped_count, 100.0 * speed_share);
     // In the others, the arm still vibrates after its brake test when the start button is pushed.
     EXPECT_GE(operational_count, count * 3 / 4);
     EXPECT_GE(stopped_count, count / 3) << "most kinds are harmful";
@@ -219,8 +218,8 @@ TEST(WrongControllersTest, ANumberGivesTheSameController) {
             TorqueCommand of_b = of_a;
             JointState state{};
             state.velocity_rad_s.fill(0.1);
-            a.spoil(of_a, state);
-            b.spoil(of_b, state);
+            a.corrupt(of_a, state);
+            b.corrupt(of_b, state);
             ASSERT_EQ(of_a.torque_nm, of_b.torque_nm) << number;
             ASSERT_EQ(of_a.setpoint_rad, of_b.setpoint_rad) << number;
         }
@@ -238,7 +237,7 @@ TEST(WrongControllersTest, EachKindChangesTheTorqueOfAJoint) {
             const JointVector sound_nm = command.torque_nm;
             JointState state{};
             state.velocity_rad_s.fill(0.1);
-            sut.spoil(command, state);
+            sut.corrupt(command, state);
             is_changed = is_changed || command.torque_nm != sound_nm;
         }
         EXPECT_TRUE(is_changed) << number;

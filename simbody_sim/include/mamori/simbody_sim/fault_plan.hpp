@@ -38,7 +38,7 @@ enum class FaultKind : std::uint8_t {
     kRelayStuck,       ///< the second switch-off path does not open
     kProcessorStops,   ///< the outputs keep their last values, and nothing services the watchdog
     kMessageDamaged,   ///< magnitude: bit of each message that is inverted, 0 .. 65535
-    kControllerWrong,  ///< magnitude: number of a wrong controller, a whole number, 0 .. kWrongControllerMax
+    kControllerWrong,  ///< magnitude: number of a wrong controller, an integer, 0 .. kWrongControllerMax
 };
 
 enum class FaultChannel : std::uint8_t { kA, kB, kBoth };
