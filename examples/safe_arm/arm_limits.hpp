@@ -123,6 +123,11 @@ inline constexpr mamori::Duration kBrakeTestHold = 30_ms;
 inline constexpr double kBrakeTestTravelRad = 0.0025;
 /// A start needs a passed brake test that is not older than this; a longer operation is stopped.
 inline constexpr mamori::Duration kBrakeTestInterval{std::int64_t{8} * 3600 * 1'000'000'000};
+/// Channels of one switch may differ for this long: its contacts do not open and close at the same instant.
+inline constexpr mamori::Duration kSwitchDiscrepancyTime = 100_ms;
+/// A push of a button counts if it lasts for at least and at most this time: no bounce, and no stuck button.
+inline constexpr mamori::Duration kPushMin = 20_ms;
+inline constexpr mamori::Duration kPushMax = 3000_ms;
 /// The self test begins with this many good frames in a row, and not before this time: links between
 /// processes need a few frames to start. They come within kSelfTestTime.
 inline constexpr mamori::Duration kQuietTime = 40_ms;

@@ -19,7 +19,7 @@ namespace safe_arm {
 using mamori::safety::JointVector;
 using mamori::safety::kArmJointCount;
 
-/// Device image in physical units; nothing is judged yet.
+/// Device image in physical units, and what the operator demands. Nothing else is checked yet.
 struct JointReading {
     JointVector position_a_rad{};
     JointVector position_b_rad{};
@@ -29,8 +29,9 @@ struct JointReading {
     bool torque_enabled{false};  ///< feedback
     bool relay_closed{false};    ///< feedback
     bool power_good{false};
-    bool start_button{false};
-    bool reset_button{false};
+    bool start_button{false};        ///< a deliberate push ends in this frame
+    bool reset_button{false};        ///< likewise
+    std::uint32_t panel_faults{0U};  ///< of the operator panel; bit n = ArmFault n
 };
 
 /// What the monitor vouches for, and the faults it sees in this cycle (bit n = ArmFault n).
@@ -81,7 +82,7 @@ struct DriveCommand {
 }  // namespace safe_arm
 
 MAMORI_FIELDS(safe_arm::JointReading, position_a_rad, position_b_rad, measured_torque_nm, brakes_closed,
-              brakes_open, torque_enabled, relay_closed, power_good, start_button, reset_button)
+              brakes_open, torque_enabled, relay_closed, power_good, start_button, reset_button, panel_faults)
 MAMORI_FIELDS(safe_arm::JointState, position_rad, velocity_rad_s, faults, is_standing, is_setpoint_near)
 MAMORI_FIELDS(safe_arm::TorqueCommand, sequence, sent_at_ns, setpoint_rad, torque_nm)
 MAMORI_FIELDS(safe_arm::StopCommand, state, torque_enable, brake_release, stop_requested, relay_close,

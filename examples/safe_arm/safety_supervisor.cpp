@@ -48,7 +48,8 @@ bool SafetySupervisor::is_present(FaultIndex fault) noexcept {
         // A stopped machine tests its brakes again after a reset; the fault must not refuse that reset.
         return is_brake_test_old_ && get_state() != SafeState::kSafe && get_state() != SafeState::kSelfTest;
     }
-    return (arm_state.read().faults & (std::uint32_t{1U} << fault)) != 0U;
+    const std::uint32_t faults = arm_state.read().faults | reading.read().panel_faults;
+    return (faults & (std::uint32_t{1U} << fault)) != 0U;
 }
 
 void SafetySupervisor::command(SafeState state, const StopOutputs& outputs) noexcept {

@@ -218,6 +218,9 @@ const safety::ArmInputs& ArmPlant::sample() {
     plant.inputs.torque_enabled = plant.torque_possible.is_on();
     plant.inputs.relay_closed = plant.relay_closed;
     plant.inputs.power_good = !plant.faults.power_lost;
+    for (std::size_t i = 0U; i < plant.inputs.emergency_stop_closed.size(); ++i) {
+        plant.inputs.emergency_stop_closed[i] = !plant.faults.emergency_stop_open[i];
+    }
     return plant.inputs;
 }
 
@@ -226,8 +229,9 @@ void ArmPlant::set_watchdog_expired(bool expired) noexcept {
 }
 
 void ArmPlant::set_buttons(bool start, bool reset) noexcept {
-    impl_->inputs.start_button = start;
-    impl_->inputs.reset_button = reset;
+    safety::ArmInputs& inputs = impl_->inputs;
+    inputs.start_button = start || (impl_->faults.start_stuck && inputs.start_button);
+    inputs.reset_button = reset || (impl_->faults.reset_stuck && inputs.reset_button);
 }
 
 void ArmPlant::set_observer(PlantObserver* observer) noexcept {

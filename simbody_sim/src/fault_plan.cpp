@@ -45,6 +45,12 @@ const char* get_name(FaultKind kind) noexcept {
             return "relay_stuck";
         case FaultKind::kProcessorStops:
             return "processor_stops";
+        case FaultKind::kEmergencyStop:
+            return "emergency_stop";
+        case FaultKind::kStartStuck:
+            return "start_stuck";
+        case FaultKind::kResetStuck:
+            return "reset_stuck";
     }
     return "invalid";
 }
@@ -63,7 +69,8 @@ const char* get_name(FaultChannel channel) noexcept {
 
 bool may_be_latent(FaultKind kind) noexcept {
     return kind == FaultKind::kBrakeStuckOpen || kind == FaultKind::kBrakesStuckOpen ||
-           kind == FaultKind::kStoIgnored || kind == FaultKind::kRelayStuck || kind == FaultKind::kBrakeFade;
+           kind == FaultKind::kStoIgnored || kind == FaultKind::kRelayStuck ||
+           kind == FaultKind::kBrakeFade || kind == FaultKind::kStartStuck || kind == FaultKind::kResetStuck;
 }
 
 FaultPlan delay(const FaultPlan& plan, Duration by) noexcept {
@@ -73,13 +80,21 @@ FaultPlan delay(const FaultPlan& plan, Duration by) noexcept {
     return later;
 }
 
-bool uses_channel(FaultKind kind) noexcept {
+namespace {
+
+bool is_of_encoder(FaultKind kind) noexcept {
     return kind == FaultKind::kEncoderFreeze || kind == FaultKind::kEncoderBitFlip ||
            kind == FaultKind::kEncoderBias;
 }
 
+}  // namespace
+
+bool uses_channel(FaultKind kind) noexcept {
+    return is_of_encoder(kind) || kind == FaultKind::kEmergencyStop;
+}
+
 bool uses_joint(FaultKind kind) noexcept {
-    return uses_channel(kind) || kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade ||
+    return is_of_encoder(kind) || kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade ||
            kind == FaultKind::kBrakeStuckOpen;
 }
 
@@ -128,6 +143,10 @@ void apply_to_switches(FaultKind kind, std::size_t joint, bool active, PlantFaul
         faults.sto_ignored = active;
     } else if (kind == FaultKind::kRelayStuck) {
         faults.relay_stuck = active;
+    } else if (kind == FaultKind::kStartStuck) {
+        faults.start_stuck = active;
+    } else if (kind == FaultKind::kResetStuck) {
+        faults.reset_stuck = active;
     }
 }
 
@@ -136,13 +155,16 @@ void apply_to_switches(FaultKind kind, std::size_t joint, bool active, PlantFaul
 void apply_plant_faults(const FaultPlan& plan, Instant now, PlantFaults& faults) noexcept {
     MAMORI_REQUIRE(1, plan.joint < safety::kArmJointCount && plan.latent_joint < safety::kArmJointCount);
     const bool active = is_active(plan, now);
-    if (uses_channel(plan.kind)) {
+    if (is_of_encoder(plan.kind)) {
         if (plan.channel != FaultChannel::kB) {
             apply_to_encoder(plan, active, faults.encoder_a[plan.joint]);
         }
         if (plan.channel != FaultChannel::kA) {
             apply_to_encoder(plan, active, faults.encoder_b[plan.joint]);
         }
+    } else if (plan.kind == FaultKind::kEmergencyStop) {
+        faults.emergency_stop_open = {active && plan.channel != FaultChannel::kB,
+                                      active && plan.channel != FaultChannel::kA};
     } else if (plan.kind == FaultKind::kTorqueRunaway) {
         faults.torque_runaway[plan.joint] = active ? std::optional<double>(plan.magnitude) : std::nullopt;
     } else if (plan.kind == FaultKind::kBrakeFade) {

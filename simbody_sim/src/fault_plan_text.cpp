@@ -23,7 +23,7 @@ class PlanError final : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-constexpr std::array<FaultKind, 16U> kKinds{FaultKind::kNone,
+constexpr std::array<FaultKind, 19U> kKinds{FaultKind::kNone,
                                             FaultKind::kEncoderFreeze,
                                             FaultKind::kEncoderBitFlip,
                                             FaultKind::kEncoderBias,
@@ -38,7 +38,10 @@ constexpr std::array<FaultKind, 16U> kKinds{FaultKind::kNone,
                                             FaultKind::kBrakesStuckOpen,
                                             FaultKind::kStoIgnored,
                                             FaultKind::kRelayStuck,
-                                            FaultKind::kProcessorStops};
+                                            FaultKind::kProcessorStops,
+                                            FaultKind::kEmergencyStop,
+                                            FaultKind::kStartStuck,
+                                            FaultKind::kResetStuck};
 constexpr std::array<FaultChannel, 3U> kChannels{FaultChannel::kA, FaultChannel::kB, FaultChannel::kBoth};
 
 /// Times in a plan end here, so that they stay far from the range of Instant.
@@ -177,6 +180,9 @@ double to_magnitude(FaultKind kind, const std::string& text) {
         case FaultKind::kStoIgnored:
         case FaultKind::kRelayStuck:
         case FaultKind::kProcessorStops:
+        case FaultKind::kEmergencyStop:
+        case FaultKind::kStartStuck:
+        case FaultKind::kResetStuck:
             break;
     }
     return value;
@@ -205,7 +211,7 @@ void read_latent(const std::string& text, FaultPlan& plan) {
     if (!may_be_latent(plan.latent)) {
         throw PlanError(std::string(get_name(plan.latent)) +
                         " is not a latent fault; valid: brake_stuck_open, brakes_stuck_open, brake_fade, "
-                        "sto_ignored, relay_stuck");
+                        "sto_ignored, relay_stuck, start_stuck, reset_stuck");
     }
     if (uses_joint(plan.latent) != (colon != std::string::npos)) {
         throw PlanError(std::string("latent=") + get_name(plan.latent) +

@@ -168,6 +168,28 @@ TEST_F(ArmPlantDriveTest, ButtonsAreShownAsPressed) {
     EXPECT_FALSE(sut_.sample().reset_button);
 }
 
+TEST_F(ArmPlantDriveTest, AStuckButtonStaysPushedOnceItIsPushed) {
+    verifies("SWR-SIM-012", Technique::kFaultInjection);
+    sut_.faults().start_stuck = true;
+    sut_.faults().reset_stuck = true;
+
+    sut_.set_buttons(false, false);
+    EXPECT_FALSE(sut_.sample().start_button || sut_.sample().reset_button);
+    sut_.set_buttons(true, false);
+    sut_.set_buttons(false, true);
+    sut_.set_buttons(false, false);
+    EXPECT_TRUE(sut_.sample().start_button && sut_.sample().reset_button);
+}
+
+TEST_F(ArmPlantDriveTest, EachChannelOfTheEmergencyStopIsShown) {
+    verifies("SWR-SIM-006", Technique::kInterface);
+
+    EXPECT_TRUE(sut_.sample().emergency_stop_closed[0] && sut_.sample().emergency_stop_closed[1]);
+    sut_.faults().emergency_stop_open = {true, false};
+    EXPECT_FALSE(sut_.sample().emergency_stop_closed[0]);
+    EXPECT_TRUE(sut_.sample().emergency_stop_closed[1]);
+}
+
 TEST_F(ArmPlantDriveTest, AnOpenRelayTakesTorqueAndBrakeCurrentAndItsContactSaysSo) {
     verifies("SWR-SIM-006");
     hold_for(100_ms);

@@ -51,7 +51,7 @@ TEST(FaultPlanTest, AFaultStaysUnlessItIsSaidOtherwise) {
 
 TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
     verifies("SWR-SIM-011", Technique::kEquivalenceClasses);
-    const std::array<std::string, 16U> texts{
+    const std::array<std::string, 18U> texts{
         "kind=none",
         "kind=none,seed=18446744073709551615",
         "kind=encoder_freeze,joint=1,channel=a,at=2",
@@ -67,7 +67,9 @@ TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
         "kind=power_loss,at=1,latent=brake_stuck_open:7",
         "kind=none,latent=sto_ignored,seed=3",
         "kind=brake_stuck_open,joint=2,at=1",
-        "kind=processor_stops,at=1"};
+        "kind=processor_stops,at=1",
+        "kind=emergency_stop,channel=both,at=1,duration=0.5",
+        "kind=power_loss,at=1,latent=reset_stuck"};
 
     for (const std::string& text : texts) {
         EXPECT_EQ(to_text(parse(text)), text);
@@ -96,7 +98,8 @@ TEST(FaultPlanTest, EveryKindIsListedOnceAndNoOther) {
     EXPECT_EQ(list_fault_kinds(),
               "none, encoder_freeze, encoder_bit_flip, encoder_bias, torque_runaway, power_loss, brake_fade, "
               "controller_hang, message_lost, message_late, supervisor_hang, brake_stuck_open, "
-              "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops");
+              "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops, emergency_stop, start_stuck, "
+              "reset_stuck");
 }
 
 TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {
@@ -203,6 +206,13 @@ TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
     EXPECT_EQ(apply(runaway, during).torque_runaway[4], -0.5);
     EXPECT_EQ(apply(fade, during).brake_fade[5], 0.75);
     EXPECT_TRUE(apply(power, during).power_lost);
+    using Channels = std::array<bool, 2U>;
+    const std::string stop = "kind=emergency_stop,at=1,duration=0.5,channel=";
+    EXPECT_EQ(apply((stop + "a").c_str(), during).emergency_stop_open, (Channels{true, false}));
+    EXPECT_EQ(apply((stop + "b").c_str(), during).emergency_stop_open, (Channels{false, true}));
+    EXPECT_EQ(apply((stop + "both").c_str(), during).emergency_stop_open, (Channels{true, true}));
+    EXPECT_TRUE(apply("kind=start_stuck,at=1", during).start_stuck);
+    EXPECT_TRUE(apply("kind=reset_stuck,at=1", during).reset_stuck);
 
     for (const Instant now : {before, after}) {
         EXPECT_FALSE(apply(freeze, now, apply(freeze, during)).encoder_a[1].frozen);
@@ -212,6 +222,7 @@ TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
         EXPECT_FALSE(apply(runaway, now, apply(runaway, during)).torque_runaway[4]);
         EXPECT_EQ(apply(fade, now, apply(fade, during)).brake_fade[5], 0.0);
         EXPECT_FALSE(apply(power, now, apply(power, during)).power_lost);
+        EXPECT_EQ(apply((stop + "both").c_str(), now).emergency_stop_open, (Channels{false, false}));
     }
 }
 

@@ -115,6 +115,18 @@ TEST_F(RunTest, FaultAndItsReactionAreRecorded) {
     EXPECT_FALSE(summary["standstill_at_s"].is_null());
 }
 
+TEST_F(RunTest, ReleasedEmergencyStopNeedsResetAndStart) {
+    verifies("SWR-SAF-032", Technique::kStateTransition);
+    const std::string pushed = "--fault kind=emergency_stop,channel=both,at=0.3,duration=0.5 --frames ";
+    // The operator releases reset 1.05 s, and start 1.45 s after the demand.
+    for (const auto& [frames, state] :
+         {std::pair{"1849", "Safe"}, std::pair{"2249", "Standby"}, std::pair{"2252", "Operational"}}) {
+        ASSERT_EQ(run(arguments(pushed + frames)), 0) << messages_;
+        EXPECT_EQ(read_summary()["final_state"], state) << frames;
+        EXPECT_EQ(read_summary()["reaction"], "Ss1");
+    }
+}
+
 TEST_F(RunTest, PathThatLeavesTheRangeIsStoppedInsideTheMechanicalRange) {
     verifies("SWR-SAF-007", Technique::kFaultInjection, Polarity::kViolation);
     struct Row {

@@ -253,6 +253,36 @@ TEST_F(SafetySupervisorTest, SilentControllerIsAFaultAndLeavesTheWatchdogServed)
     EXPECT_EQ(watchdog_.services, before + 1);
 }
 
+TEST_F(SafetySupervisorTest, AnEmergencyStopStopsTheArmAndAResetNeedsItsRelease) {
+    verifies("SWR-SAF-030", Technique::kStateTransition);
+    operate();
+    reading_.panel_faults = to_bit(ArmFault::kEmergencyStop);
+    EXPECT_EQ(step().state, SafeState::kProtectiveStopSs1);
+    step();  // told to close
+    reading_.brakes_closed = true;
+    reading_.torque_enabled = false;
+    step();
+    ASSERT_EQ(step().state, SafeState::kSafe);
+    reading_.reset_button = true;
+    EXPECT_EQ(step().state, SafeState::kSafe) << "it is still pushed";
+    reading_.reset_button = false;
+    reading_.panel_faults = 0U;
+    EXPECT_EQ(step().state, SafeState::kSafe) << "its release starts nothing";
+
+    reading_.reset_button = true;
+    EXPECT_EQ(step().state, SafeState::kSelfTest);
+}
+
+TEST_F(SafetySupervisorTest, AFailedSwitchRefusesTheStart) {
+    verifies("SWR-SAF-031", Technique::kFaultInjection, Polarity::kViolation);
+    step_until(SafeState::kStandby, 400);
+    reading_.panel_faults = to_bit(ArmFault::kSwitchDiscrepancy);
+    step();
+
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kSafe);
+}
+
 TEST_F(SafetySupervisorTest, ReaderThatFallsSilentStopsTorqueInItsFrame) {
     verifies("SWR-SAF-019", Technique::kFaultInjection, Polarity::kViolation);
     operate();

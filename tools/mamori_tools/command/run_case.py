@@ -35,10 +35,12 @@ FAULT_HELP = """KIND[,key=value...]; default: none
   encoder_bias      joint channel magnitude=RAD, -10 to 10, not 0
   torque_runaway    joint magnitude=FRACTION of the torque limit, -1 to 1, not 0
   message_late      magnitude=SECONDS, above 0 to 10
+  emergency_stop    channel
   message_lost, power_loss, controller_hang, supervisor_hang, processor_stops, none
 Each kind except none takes at=SECONDS of the motion, before its end, and duration=SECONDS; default: to the end.
 A second fault that shows nothing by itself: latent=brake_stuck_open:JOINT,
-brake_fade:JOINT, brakes_stuck_open, sto_ignored or relay_stuck"""
+brake_fade:JOINT, brakes_stuck_open, sto_ignored, relay_stuck,
+start_stuck or reset_stuck"""
 KEYS = ("joint", "channel", "magnitude", "at", "duration", "latent")
 REJECTED_INPUT = 2
 """Exit status of the program for rejected input."""

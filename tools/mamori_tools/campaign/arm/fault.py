@@ -43,8 +43,11 @@ KINDS: Mapping[str, Uses] = {
     "sto_ignored": Uses(),
     "relay_stuck": Uses(),
     "processor_stops": Uses(),
+    "emergency_stop": Uses(channel=True),
+    "start_stuck": Uses(),
+    "reset_stuck": Uses(),
 }
-LATENT_KINDS = ("brake_stuck_open", "brakes_stuck_open", "brake_fade", "sto_ignored", "relay_stuck")
+LATENT_KINDS = ("brake_stuck_open", "brakes_stuck_open", "brake_fade", "sto_ignored", "relay_stuck", "start_stuck", "reset_stuck")
 
 _KEYS = frozenset({"kind", "joint", "channel", "magnitude", "duration_s", "min_speed_rad_s", "latent"})
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "operator_panel.hpp"
+
+#include "arm_faults.hpp"
+
+namespace safe_arm {
+
+using mamori::Duration;
+using mamori::Instant;
+using mamori::safety::ArmInputs;
+using mamori::safety::Discrepancy;
+
+bool TwoChannelSwitch::step(const std::array<bool, 2U>& is_closed, Instant now) noexcept {
+    const bool had_failed = has_failed();
+    const Discrepancy result = timer_.step(is_closed[0] != is_closed[1], now);
+    if (!had_failed && result == Discrepancy::kLatched) {
+        has_opened_ = false;
+    }
+    has_opened_ = has_opened_ || (!is_closed[0] && !is_closed[1]);
+    return is_closed[0] && is_closed[1];
+}
+
+void TwoChannelSwitch::acknowledge() noexcept {
+    if (has_opened_) {
+        static_cast<void>(timer_.acknowledge());  // channels that differ keep it
+    }
+}
+
+bool PushButton::step(bool is_pushed, Instant now) noexcept {
+    const Duration length = now - pushed_at_;
+    const bool is_deliberate =
+        was_pushed_ && !is_pushed && has_begun_ && length >= kPushMin && length <= kPushMax;
+    if (is_pushed && !was_pushed_) {
+        pushed_at_ = now;
+        has_begun_ = true;
+    }
+    was_pushed_ = is_pushed;
+    return is_deliberate;
+}
+
+PanelState OperatorPanel::step(const ArmInputs& inputs, Instant now) noexcept {
+    PanelState result{};
+    result.start = start_.step(inputs.start_button, now);
+    result.reset = reset_.step(inputs.reset_button, now);
+    const bool is_permitted = emergency_stop_.step(inputs.emergency_stop_closed, now);
+    if (result.reset) {
+        emergency_stop_.acknowledge();
+    }
+    result.faults |= is_permitted ? 0U : to_bit(ArmFault::kEmergencyStop);
+    result.faults |= emergency_stop_.has_failed() ? to_bit(ArmFault::kSwitchDiscrepancy) : 0U;
+    return result;
+}
+
+}  // namespace safe_arm
