@@ -33,6 +33,7 @@ enum class ArmFault : std::uint16_t {
     kStopNotFollowed,     ///< the arm leaves the ramp of its stop, or the place of its hold
     kEmergencyStop,       ///< the emergency stop is pushed, or a channel of it is open
     kSwitchDiscrepancy,   ///< the channels of a switch differ for too long
+    kProtectiveStop,      ///< the protective stop is open while torque is on
     kCount,               ///< number of faults
 };
 inline constexpr auto kArmFaultCount = static_cast<std::size_t>(ArmFault::kCount);
@@ -46,10 +47,10 @@ constexpr std::uint32_t to_bit(ArmFault fault) noexcept {
 
 /// Spelling of a fault in logs and reports, indexed by its number.
 inline constexpr std::array<const char*, kArmFaultCount> kArmFaultNames{
-    "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",     "FollowingError", "Overspeed",
-    "PositionLimit",      "TorqueDeviation",    "ControllerSilent", "CommandStale",   "PowerLost",
-    "BrakeFault",         "SelfTestFailed",     "MeasurementStale", "ReactionLate",   "BrakeTestOld",
-    "StopNotFollowed",    "EmergencyStop",      "SwitchDiscrepancy"};
+    "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",      "FollowingError", "Overspeed",
+    "PositionLimit",      "TorqueDeviation",    "ControllerSilent",  "CommandStale",   "PowerLost",
+    "BrakeFault",         "SelfTestFailed",     "MeasurementStale",  "ReactionLate",   "BrakeTestOld",
+    "StopNotFollowed",    "EmergencyStop",      "SwitchDiscrepancy", "ProtectiveStop"};
 
 }  // namespace safe_arm
 

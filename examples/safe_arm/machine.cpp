@@ -24,9 +24,10 @@ bool is_pushed(Instant since, Instant now) noexcept {
 
 Buttons calc_buttons(const mamori::sim::FaultPlan& fault, Instant now) noexcept {
     const Instant demanded_at = Instant{} + fault.at;
-    const bool is_operator = fault.kind == FaultKind::kEmergencyStop;
+    const bool is_emergency_stop = fault.kind == FaultKind::kEmergencyStop;
+    const bool is_operator = is_emergency_stop || fault.kind == FaultKind::kProtectiveStop;
     return {is_pushed(kStartPushed, now) || (is_operator && is_pushed(demanded_at + kRestartAfter, now)),
-            is_operator && is_pushed(demanded_at + kResetAfter, now)};
+            is_emergency_stop && is_pushed(demanded_at + kResetAfter, now)};
 }
 
 void Machine::sample(std::uint64_t, Instant now) noexcept {
@@ -70,6 +71,7 @@ void Machine::apply_software_faults(Instant now) noexcept {
         case FaultKind::kStoIgnored:
         case FaultKind::kRelayStuck:
         case FaultKind::kEmergencyStop:
+        case FaultKind::kProtectiveStop:
         case FaultKind::kStartStuck:
         case FaultKind::kResetStuck:
             break;  // faults of the plant

@@ -31,8 +31,8 @@ Status MotionController::on_activated(ContextHandle) noexcept {
 
 Status MotionController::on_execute(ContextHandle context) noexcept {
     const JointState& measured = state.read();
-    if (!stop.read().torque_enable) {
-        // Bumpless: while no torque flows the setpoint is where the arm is.
+    if (!stop.read().torque_enable || stop.read().stop_requested) {
+        // Bumpless: while the torque is not from here, the setpoint is where the arm is.
         hold_rad_ = measured.position_rad;
         is_on_path_ = false;
     } else {

@@ -4,6 +4,20 @@
 #include "arm_faults.hpp"
 
 namespace safe_arm {
+namespace {
+
+/// One frame of a switch. @return its faults.
+std::uint32_t evaluate(TwoChannelSwitch& channels, const std::array<bool, 2U>& is_closed, ArmFault demand,
+                       bool is_reset, mamori::Instant now) noexcept {
+    const bool is_permitted = channels.step(is_closed, now);
+    if (is_reset) {
+        channels.acknowledge();
+    }
+    return (is_permitted ? 0U : to_bit(demand)) |
+           (channels.has_failed() ? to_bit(ArmFault::kSwitchDiscrepancy) : 0U);
+}
+
+}  // namespace
 
 using mamori::Duration;
 using mamori::Instant;
@@ -42,12 +56,10 @@ PanelState OperatorPanel::step(const ArmInputs& inputs, Instant now) noexcept {
     PanelState result{};
     result.start = start_.step(inputs.start_button, now);
     result.reset = reset_.step(inputs.reset_button, now);
-    const bool is_permitted = emergency_stop_.step(inputs.emergency_stop_closed, now);
-    if (result.reset) {
-        emergency_stop_.acknowledge();
-    }
-    result.faults |= is_permitted ? 0U : to_bit(ArmFault::kEmergencyStop);
-    result.faults |= emergency_stop_.has_failed() ? to_bit(ArmFault::kSwitchDiscrepancy) : 0U;
+    result.faults |=
+        evaluate(emergency_stop_, inputs.emergency_stop_closed, ArmFault::kEmergencyStop, result.reset, now);
+    result.faults |= evaluate(protective_stop_, inputs.protective_stop_closed, ArmFault::kProtectiveStop,
+                              result.reset, now);
     return result;
 }
 

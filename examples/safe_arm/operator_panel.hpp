@@ -63,6 +63,7 @@ class OperatorPanel final {
 
   private:
     TwoChannelSwitch emergency_stop_{};
+    TwoChannelSwitch protective_stop_{};
     PushButton start_{};
     PushButton reset_{};
 };

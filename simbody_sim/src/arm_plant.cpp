@@ -220,6 +220,7 @@ const safety::ArmInputs& ArmPlant::sample() {
     plant.inputs.power_good = !plant.faults.power_lost;
     for (std::size_t i = 0U; i < plant.inputs.emergency_stop_closed.size(); ++i) {
         plant.inputs.emergency_stop_closed[i] = !plant.faults.emergency_stop_open[i];
+        plant.inputs.protective_stop_closed[i] = !plant.faults.protective_stop_open[i];
     }
     return plant.inputs;
 }

@@ -47,6 +47,8 @@ const char* get_name(FaultKind kind) noexcept {
             return "processor_stops";
         case FaultKind::kEmergencyStop:
             return "emergency_stop";
+        case FaultKind::kProtectiveStop:
+            return "protective_stop";
         case FaultKind::kStartStuck:
             return "start_stuck";
         case FaultKind::kResetStuck:
@@ -87,10 +89,14 @@ bool is_of_encoder(FaultKind kind) noexcept {
            kind == FaultKind::kEncoderBias;
 }
 
+bool is_stop(FaultKind kind) noexcept {
+    return kind == FaultKind::kEmergencyStop || kind == FaultKind::kProtectiveStop;
+}
+
 }  // namespace
 
 bool uses_channel(FaultKind kind) noexcept {
-    return is_of_encoder(kind) || kind == FaultKind::kEmergencyStop;
+    return is_of_encoder(kind) || is_stop(kind);
 }
 
 bool uses_joint(FaultKind kind) noexcept {
@@ -162,9 +168,10 @@ void apply_plant_faults(const FaultPlan& plan, Instant now, PlantFaults& faults)
         if (plan.channel != FaultChannel::kA) {
             apply_to_encoder(plan, active, faults.encoder_b[plan.joint]);
         }
-    } else if (plan.kind == FaultKind::kEmergencyStop) {
-        faults.emergency_stop_open = {active && plan.channel != FaultChannel::kB,
-                                      active && plan.channel != FaultChannel::kA};
+    } else if (is_stop(plan.kind)) {
+        auto& open =
+            plan.kind == FaultKind::kEmergencyStop ? faults.emergency_stop_open : faults.protective_stop_open;
+        open = {active && plan.channel != FaultChannel::kB, active && plan.channel != FaultChannel::kA};
     } else if (plan.kind == FaultKind::kTorqueRunaway) {
         faults.torque_runaway[plan.joint] = active ? std::optional<double>(plan.magnitude) : std::nullopt;
     } else if (plan.kind == FaultKind::kBrakeFade) {

@@ -23,7 +23,7 @@ class PlanError final : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-constexpr std::array<FaultKind, 19U> kKinds{FaultKind::kNone,
+constexpr std::array<FaultKind, 20U> kKinds{FaultKind::kNone,
                                             FaultKind::kEncoderFreeze,
                                             FaultKind::kEncoderBitFlip,
                                             FaultKind::kEncoderBias,
@@ -40,6 +40,7 @@ constexpr std::array<FaultKind, 19U> kKinds{FaultKind::kNone,
                                             FaultKind::kRelayStuck,
                                             FaultKind::kProcessorStops,
                                             FaultKind::kEmergencyStop,
+                                            FaultKind::kProtectiveStop,
                                             FaultKind::kStartStuck,
                                             FaultKind::kResetStuck};
 constexpr std::array<FaultChannel, 3U> kChannels{FaultChannel::kA, FaultChannel::kB, FaultChannel::kBoth};
@@ -181,6 +182,7 @@ double to_magnitude(FaultKind kind, const std::string& text) {
         case FaultKind::kRelayStuck:
         case FaultKind::kProcessorStops:
         case FaultKind::kEmergencyStop:
+        case FaultKind::kProtectiveStop:
         case FaultKind::kStartStuck:
         case FaultKind::kResetStuck:
             break;

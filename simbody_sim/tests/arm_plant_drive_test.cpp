@@ -181,13 +181,17 @@ TEST_F(ArmPlantDriveTest, AStuckButtonStaysPushedOnceItIsPushed) {
     EXPECT_TRUE(sut_.sample().start_button && sut_.sample().reset_button);
 }
 
-TEST_F(ArmPlantDriveTest, EachChannelOfTheEmergencyStopIsShown) {
+TEST_F(ArmPlantDriveTest, EachChannelOfAStopIsShown) {
     verifies("SWR-SIM-006", Technique::kInterface);
 
     EXPECT_TRUE(sut_.sample().emergency_stop_closed[0] && sut_.sample().emergency_stop_closed[1]);
     sut_.faults().emergency_stop_open = {true, false};
     EXPECT_FALSE(sut_.sample().emergency_stop_closed[0]);
     EXPECT_TRUE(sut_.sample().emergency_stop_closed[1]);
+    EXPECT_TRUE(sut_.sample().protective_stop_closed[0] && sut_.sample().protective_stop_closed[1]);
+    sut_.faults().protective_stop_open = {false, true};
+    EXPECT_TRUE(sut_.sample().protective_stop_closed[0]);
+    EXPECT_FALSE(sut_.sample().protective_stop_closed[1]);
 }
 
 TEST_F(ArmPlantDriveTest, AnOpenRelayTakesTorqueAndBrakeCurrentAndItsContactSaysSo) {

@@ -51,7 +51,7 @@ TEST(FaultPlanTest, AFaultStaysUnlessItIsSaidOtherwise) {
 
 TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
     verifies("SWR-SIM-011", Technique::kEquivalenceClasses);
-    const std::array<std::string, 18U> texts{
+    const std::array<std::string, 19U> texts{
         "kind=none",
         "kind=none,seed=18446744073709551615",
         "kind=encoder_freeze,joint=1,channel=a,at=2",
@@ -69,6 +69,7 @@ TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
         "kind=brake_stuck_open,joint=2,at=1",
         "kind=processor_stops,at=1",
         "kind=emergency_stop,channel=both,at=1,duration=0.5",
+        "kind=protective_stop,channel=a,at=1",
         "kind=power_loss,at=1,latent=reset_stuck"};
 
     for (const std::string& text : texts) {
@@ -98,7 +99,8 @@ TEST(FaultPlanTest, EveryKindIsListedOnceAndNoOther) {
     EXPECT_EQ(list_fault_kinds(),
               "none, encoder_freeze, encoder_bit_flip, encoder_bias, torque_runaway, power_loss, brake_fade, "
               "controller_hang, message_lost, message_late, supervisor_hang, brake_stuck_open, "
-              "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops, emergency_stop, start_stuck, "
+              "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops, emergency_stop, "
+              "protective_stop, start_stuck, "
               "reset_stuck");
 }
 
@@ -211,6 +213,8 @@ TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
     EXPECT_EQ(apply((stop + "a").c_str(), during).emergency_stop_open, (Channels{true, false}));
     EXPECT_EQ(apply((stop + "b").c_str(), during).emergency_stop_open, (Channels{false, true}));
     EXPECT_EQ(apply((stop + "both").c_str(), during).emergency_stop_open, (Channels{true, true}));
+    EXPECT_EQ(apply("kind=protective_stop,channel=b,at=1", during).protective_stop_open,
+              (Channels{false, true}));
     EXPECT_TRUE(apply("kind=start_stuck,at=1", during).start_stuck);
     EXPECT_TRUE(apply("kind=reset_stuck,at=1", during).reset_stuck);
 

@@ -50,14 +50,14 @@ struct ControllerInput {
     JointVector position_rad{};
     JointVector velocity_rad_s{};
     bool is_operational{false};
-    bool torque_enable{false};
+    bool torque_enable{false};  ///< and no stop is requested
 };
 
 }  // namespace safe_arm
 
 MAMORI_LCM_NAMES(mamori::safety::ArmInputs, encoder_a_counts, encoder_b_counts, measured_torque_nm,
                  brake_closed, torque_enabled, relay_closed, power_good, start_button, reset_button,
-                 emergency_stop_closed)
+                 emergency_stop_closed, protective_stop_closed)
 MAMORI_LCM_NAMES(mamori::safety::ArmOutputs, torque_nm, torque_enable, brake_release, relay_close)
 MAMORI_LCM_FIELDS(safe_arm::DeviceFrame, answered_ns, inputs)
 MAMORI_LCM_FIELDS(safe_arm::SupervisorReport, state, reaction, first_fault, is_stopping, late_windows,

@@ -54,7 +54,8 @@ TEST_F(ArmReaderTest, ThePanelIsEvaluatedInEachFrame) {
                   Status::kOk);
     }
     const JointReading reading = take(sut_.reading);
-    EXPECT_EQ(reading.panel_faults, to_bit(ArmFault::kEmergencyStop)) << "an image that was not filled";
+    EXPECT_EQ(reading.panel_faults, to_bit(ArmFault::kEmergencyStop) | to_bit(ArmFault::kProtectiveStop))
+        << "an image that was not filled";
     EXPECT_TRUE(reading.reset_button);
     EXPECT_FALSE(reading.start_button);
 }

@@ -69,6 +69,19 @@ TEST_F(MotionControllerTest, EachMessageCarriesItsNumberAndInstant) {
     EXPECT_EQ(second.sent_at_ns, kFrame.ns);
 }
 
+TEST_F(MotionControllerTest, DuringAStopTheSetpointIsTheMeasuredPositionAndThePathEnds) {
+    verifies("SWR-SAF-012", Technique::kStateTransition);
+    now_ = kBegin;
+    play(10);
+    measured_.position_rad.fill(0.3);
+    feed(sut_.state, measured_);
+    feed(sut_.stop, StopCommand{SafeState::kStandstillHold, true, true, true});
+    ASSERT_EQ(sut_.on_execute({1, now_}), Status::kOk);
+    EXPECT_EQ(take(sut_.command).setpoint_rad, measured_.position_rad);
+
+    EXPECT_EQ(play(10).setpoint_rad, measured_.position_rad) << "it is not at the beginning of the path";
+}
+
 TEST_F(MotionControllerTest, WithoutTorqueTheSetpointIsTheMeasuredPosition) {
     verifies("SWR-SAF-012");
     measured_.position_rad.fill(0.3);

@@ -17,6 +17,7 @@ class OperatorPanelTest : public ::testing::Test {
   protected:
     void SetUp() override {
         inputs_.emergency_stop_closed.fill(true);
+        inputs_.protective_stop_closed.fill(true);
         step();
     }
     PanelState step() {
@@ -69,6 +70,16 @@ TEST_F(OperatorPanelTest, EitherChannelAloneDemandsTheStopInItsFrame) {
     EXPECT_EQ(set_emergency_stop(false, true, kFrame), to_bit(ArmFault::kEmergencyStop));
     EXPECT_EQ(set_emergency_stop(true, true, kFrame), 0U);
     EXPECT_EQ(set_emergency_stop(true, false, kFrame), to_bit(ArmFault::kEmergencyStop));
+}
+
+TEST_F(OperatorPanelTest, EitherChannelOfTheProtectiveStopAloneDemandsItsStop) {
+    verifies("SWR-SAF-030", Technique::kFaultInjection, Polarity::kViolation);
+    inputs_.protective_stop_closed = {false, true};
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kProtectiveStop));
+    inputs_.protective_stop_closed = {true, false};
+    EXPECT_EQ(step_for(200_ms), to_bit(ArmFault::kProtectiveStop) | to_bit(ArmFault::kSwitchDiscrepancy));
+    inputs_.protective_stop_closed = {false, false};
+    EXPECT_EQ(push_reset().faults, to_bit(ArmFault::kProtectiveStop));
 }
 
 TEST_F(OperatorPanelTest, ChannelsMayDifferForTheDiscrepancyTimeAndNotLonger) {

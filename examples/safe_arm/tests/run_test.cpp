@@ -127,6 +127,23 @@ TEST_F(RunTest, ReleasedEmergencyStopNeedsResetAndStart) {
     }
 }
 
+TEST_F(RunTest, ClosedProtectiveStopNeedsStartOnlyAndTheArmNeverLosesItsTorque) {
+    verifies("SWR-SAF-033", Technique::kStateTransition);
+    const std::string opened = "--fault kind=protective_stop,channel=both,at=0.3,duration=0.5 --frames ";
+    // The operator releases start 1.45 s after the demand.
+    for (const auto& [frames, state] : {std::pair{"2249", "StandstillHold"}, std::pair{"2253", "Operational"},
+                                        std::pair{"3000", "Operational"}}) {
+        ASSERT_EQ(run(arguments(opened + frames)), 0) << messages_;
+        const nlohmann::json summary = read_summary();
+        EXPECT_EQ(summary["final_state"], state) << frames;
+        EXPECT_EQ(summary["reaction"], "Ss2");
+        EXPECT_LT(summary["physics"]["hold_drift_rad"], 0.002);
+    }
+    std::ifstream events{folder_ / "out" / "events.csv"};
+    const std::string lines{std::istreambuf_iterator<char>{events}, {}};
+    EXPECT_EQ(lines.find("Safe"), std::string::npos) << lines;
+}
+
 TEST_F(RunTest, PathThatLeavesTheRangeIsStoppedInsideTheMechanicalRange) {
     verifies("SWR-SAF-007", Technique::kFaultInjection, Polarity::kViolation);
     struct Row {

@@ -36,6 +36,7 @@ FAULT_HELP = """KIND[,key=value...]; default: none
   torque_runaway    joint magnitude=FRACTION of the torque limit, -1 to 1, not 0
   message_late      magnitude=SECONDS, above 0 to 10
   emergency_stop    channel
+  protective_stop   channel
   message_lost, power_loss, controller_hang, supervisor_hang, processor_stops, none
 Each kind except none takes at=SECONDS of the motion, before its end, and duration=SECONDS; default: to the end.
 A second fault that shows nothing by itself: latent=brake_stuck_open:JOINT,

@@ -121,6 +121,7 @@ void ObedientDevices::sample(std::uint64_t, Instant now) noexcept {
     inputs.relay_closed = outputs.relay_close;
     inputs.power_good = true;
     inputs.emergency_stop_closed.fill(true);
+    inputs.protective_stop_closed.fill(true);
     inputs.start_button = is_pushed(kFirstStart, now) || is_pushed(kSecondStart, now);
     inputs.reset_button = is_pushed(kReset, now);
     const Duration controller_time = now < kControllerHangs ? kControllerTime : virtual_time::kNever;

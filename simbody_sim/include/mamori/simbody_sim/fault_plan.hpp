@@ -38,6 +38,7 @@ enum class FaultKind : std::uint8_t {
     kRelayStuck,       ///< the second switch-off path does not open
     kProcessorStops,   ///< the outputs keep their last values, and nothing services the watchdog
     kEmergencyStop,    ///< is pushed; with one channel, the contact of the other one does not open
+    kProtectiveStop,   ///< is opened; with one channel, the contact of the other one does not open
     kStartStuck,       ///< the start button stays pushed once it is pushed
     kResetStuck,       ///< the reset button stays pushed once it is pushed
 };

@@ -34,9 +34,10 @@ struct PlantFaults {
     bool power_lost{false};
     bool sto_ignored{false};  ///< the drives keep their torque when their safe-torque-off input demands none
     bool relay_stuck{false};  ///< the relay stays closed once it is closed; its contact says so
-    std::array<bool, 2U> emergency_stop_open{};  ///< circuit of the channel: pushed, or a broken wire
-    bool start_stuck{false};                     ///< the button stays pushed once it is pushed
-    bool reset_stuck{false};                     ///< likewise
+    std::array<bool, 2U> emergency_stop_open{};   ///< circuit of the channel: pushed, or a broken wire
+    std::array<bool, 2U> protective_stop_open{};  ///< circuit of the channel
+    bool start_stuck{false};                      ///< the button stays pushed once it is pushed
+    bool reset_stuck{false};                      ///< likewise
 };
 
 }  // namespace mamori::sim

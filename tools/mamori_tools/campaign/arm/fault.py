@@ -44,6 +44,7 @@ KINDS: Mapping[str, Uses] = {
     "relay_stuck": Uses(),
     "processor_stops": Uses(),
     "emergency_stop": Uses(channel=True),
+    "protective_stop": Uses(channel=True),
     "start_stuck": Uses(),
     "reset_stuck": Uses(),
 }

@@ -44,6 +44,8 @@ struct ArmInputs {
     /// Both channels of the emergency stop: true = circuit closed. An open one demands the stop, and a broken
     /// wire is an open one.
     std::array<bool, 2U> emergency_stop_closed{};
+    /// Both channels of the protective stop, for example of a guard door: true = circuit closed.
+    std::array<bool, 2U> protective_stop_closed{};
 };
 
 /// Written by the safety partition at the end of each frame. Default: the safe state.
@@ -62,7 +64,8 @@ struct ArmOutputs {
 }  // namespace mamori::safety
 
 MAMORI_FIELDS(mamori::safety::ArmInputs, encoder_a_counts, encoder_b_counts, measured_torque_nm, brake_closed,
-              torque_enabled, relay_closed, power_good, start_button, reset_button, emergency_stop_closed)
+              torque_enabled, relay_closed, power_good, start_button, reset_button, emergency_stop_closed,
+              protective_stop_closed)
 MAMORI_FIELDS(mamori::safety::ArmOutputs, torque_nm, torque_enable, brake_release, relay_close)
 
 #endif  // MAMORI_SAFETY_ARM_ARM_DEVICE_HPP
