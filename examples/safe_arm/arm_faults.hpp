@@ -34,6 +34,7 @@ enum class ArmFault : std::uint16_t {
     kEmergencyStop,       ///< the emergency stop is pushed, or a channel of it is open
     kSwitchDiscrepancy,   ///< the channels of a switch differ for too long
     kProtectiveStop,      ///< the protective stop is open while torque is on
+    kMovementAtRest,      ///< the arm moves without torque, behind closed brakes
     kCount,               ///< number of faults
 };
 inline constexpr auto kArmFaultCount = static_cast<std::size_t>(ArmFault::kCount);
@@ -50,7 +51,7 @@ inline constexpr std::array<const char*, kArmFaultCount> kArmFaultNames{
     "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",      "FollowingError", "Overspeed",
     "PositionLimit",      "TorqueDeviation",    "ControllerSilent",  "CommandStale",   "PowerLost",
     "BrakeFault",         "SelfTestFailed",     "MeasurementStale",  "ReactionLate",   "BrakeTestOld",
-    "StopNotFollowed",    "EmergencyStop",      "SwitchDiscrepancy", "ProtectiveStop"};
+    "StopNotFollowed",    "EmergencyStop",      "SwitchDiscrepancy", "ProtectiveStop", "MovementAtRest"};
 
 }  // namespace safe_arm
 

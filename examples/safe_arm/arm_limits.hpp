@@ -114,6 +114,10 @@ inline constexpr mamori::safety::JointVector kStopDamping{300.0, 300.0, 90.0, 90
 inline constexpr double kStopRampStep = kFrameS / 0.15;
 /// Distance between the ramp of a stop, or the place of a hold, and the measured position [rad].
 inline constexpr double kStopDeviationRad = 0.03;
+/// Distance by which the arm may move without torque, once the brakes have had kBrakeFeedbackTime [rad]. The
+/// channels may differ by less.
+inline constexpr double kRestTravelRad = 0.005;
+static_assert(kRestTravelRad > kDiscrepancyRad);
 /// Feedback of a switch-off path may contradict its command for this long.
 inline constexpr mamori::Duration kPathTime = 20_ms;
 /// Brake test: all drives push with their torque limit against the closed brakes, first forwards, then

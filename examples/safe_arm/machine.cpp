@@ -26,7 +26,10 @@ Buttons calc_buttons(const mamori::sim::FaultPlan& fault, Instant now) noexcept 
     const Instant demanded_at = Instant{} + fault.at;
     const bool is_emergency_stop = fault.kind == FaultKind::kEmergencyStop;
     const bool is_operator = is_emergency_stop || fault.kind == FaultKind::kProtectiveStop;
-    return {is_pushed(kStartPushed, now) || (is_operator && is_pushed(demanded_at + kRestartAfter, now)),
+    // A brake that creeps shows before the start only.
+    const bool is_early = fault.kind != FaultKind::kBrakeCreep;
+    return {(is_early && is_pushed(kStartPushed, now)) ||
+                ((is_operator || !is_early) && is_pushed(demanded_at + kRestartAfter, now)),
             is_emergency_stop && is_pushed(demanded_at + kResetAfter, now)};
 }
 
@@ -72,6 +75,7 @@ void Machine::apply_software_faults(Instant now) noexcept {
         case FaultKind::kRelayStuck:
         case FaultKind::kEmergencyStop:
         case FaultKind::kProtectiveStop:
+        case FaultKind::kBrakeCreep:
         case FaultKind::kStartStuck:
         case FaultKind::kResetStuck:
             break;  // faults of the plant

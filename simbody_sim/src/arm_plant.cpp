@@ -140,7 +140,8 @@ Status ArmPlant::Impl::integrate() {
         const JointModel& joint = model.joints[i];
         torque[i] = motor_torque[i] - joint.viscous_friction_nm_s_rad * u[i] - multibody.get_bias_torque()[i];
         if (!brake_open[i].is_on()) {
-            torque[i] += brakes[i].hold(joint.brake, faults.brake_fade[i], q[i], u[i]);
+            const double creep_rad = faults.brake_creep_rad_s[i] * to_seconds(kPlantSubstep);
+            torque[i] += brakes[i].hold(joint.brake, faults.brake_fade[i], creep_rad, q[i], u[i]);
         }
     }
     const JointVector acceleration = solve(multibody.get_mass_matrix(), torque);

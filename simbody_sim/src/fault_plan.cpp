@@ -49,6 +49,8 @@ const char* get_name(FaultKind kind) noexcept {
             return "emergency_stop";
         case FaultKind::kProtectiveStop:
             return "protective_stop";
+        case FaultKind::kBrakeCreep:
+            return "brake_creep";
         case FaultKind::kStartStuck:
             return "start_stuck";
         case FaultKind::kResetStuck:
@@ -101,13 +103,13 @@ bool uses_channel(FaultKind kind) noexcept {
 
 bool uses_joint(FaultKind kind) noexcept {
     return is_of_encoder(kind) || kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade ||
-           kind == FaultKind::kBrakeStuckOpen;
+           kind == FaultKind::kBrakeStuckOpen || kind == FaultKind::kBrakeCreep;
 }
 
 bool uses_magnitude(FaultKind kind) noexcept {
     return kind == FaultKind::kEncoderBitFlip || kind == FaultKind::kEncoderBias ||
            kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade ||
-           kind == FaultKind::kMessageLate;
+           kind == FaultKind::kBrakeCreep || kind == FaultKind::kMessageLate;
 }
 
 bool is_active(const FaultPlan& plan, Instant now) noexcept {
@@ -176,6 +178,8 @@ void apply_plant_faults(const FaultPlan& plan, Instant now, PlantFaults& faults)
         faults.torque_runaway[plan.joint] = active ? std::optional<double>(plan.magnitude) : std::nullopt;
     } else if (plan.kind == FaultKind::kBrakeFade) {
         faults.brake_fade[plan.joint] = active ? plan.magnitude : 0.0;
+    } else if (plan.kind == FaultKind::kBrakeCreep) {
+        faults.brake_creep_rad_s[plan.joint] = active ? plan.magnitude : 0.0;
     } else if (plan.kind == FaultKind::kPowerLoss) {
         faults.power_lost = active;
     } else {

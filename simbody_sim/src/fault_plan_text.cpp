@@ -23,7 +23,7 @@ class PlanError final : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-constexpr std::array<FaultKind, 20U> kKinds{FaultKind::kNone,
+constexpr std::array<FaultKind, 21U> kKinds{FaultKind::kNone,
                                             FaultKind::kEncoderFreeze,
                                             FaultKind::kEncoderBitFlip,
                                             FaultKind::kEncoderBias,
@@ -41,6 +41,7 @@ constexpr std::array<FaultKind, 20U> kKinds{FaultKind::kNone,
                                             FaultKind::kProcessorStops,
                                             FaultKind::kEmergencyStop,
                                             FaultKind::kProtectiveStop,
+                                            FaultKind::kBrakeCreep,
                                             FaultKind::kStartStuck,
                                             FaultKind::kResetStuck};
 constexpr std::array<FaultChannel, 3U> kChannels{FaultChannel::kA, FaultChannel::kB, FaultChannel::kBoth};
@@ -166,6 +167,9 @@ double to_magnitude(FaultKind kind, const std::string& text) {
         case FaultKind::kBrakeFade:
             demand(value > 0.0 && value <= 1.0,
                    "the lost fraction of the brake torque, above 0 and at most 1");
+            break;
+        case FaultKind::kBrakeCreep:
+            demand(value > 0.0 && value <= 1.0, "a speed above 0 and at most 1 rad/s");
             break;
         case FaultKind::kMessageLate:
             demand(value > 0.0 && value <= 10.0, "a delay above 0 s and at most 10 s");

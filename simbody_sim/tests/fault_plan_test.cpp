@@ -51,7 +51,7 @@ TEST(FaultPlanTest, AFaultStaysUnlessItIsSaidOtherwise) {
 
 TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
     verifies("SWR-SIM-011", Technique::kEquivalenceClasses);
-    const std::array<std::string, 19U> texts{
+    const std::array<std::string, 20U> texts{
         "kind=none",
         "kind=none,seed=18446744073709551615",
         "kind=encoder_freeze,joint=1,channel=a,at=2",
@@ -70,6 +70,7 @@ TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
         "kind=processor_stops,at=1",
         "kind=emergency_stop,channel=both,at=1,duration=0.5",
         "kind=protective_stop,channel=a,at=1",
+        "kind=brake_creep,joint=2,at=1,magnitude=0.02",
         "kind=power_loss,at=1,latent=reset_stuck"};
 
     for (const std::string& text : texts) {
@@ -100,7 +101,7 @@ TEST(FaultPlanTest, EveryKindIsListedOnceAndNoOther) {
               "none, encoder_freeze, encoder_bit_flip, encoder_bias, torque_runaway, power_loss, brake_fade, "
               "controller_hang, message_lost, message_late, supervisor_hang, brake_stuck_open, "
               "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops, emergency_stop, "
-              "protective_stop, start_stuck, "
+              "protective_stop, brake_creep, start_stuck, "
               "reset_stuck");
 }
 
@@ -140,7 +141,7 @@ TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {
 
 TEST(FaultPlanTest, BothSidesOfEveryLimit) {
     verifies("SWR-SIM-011", Technique::kBoundaryValues, Polarity::kViolation);
-    const std::array<std::pair<std::string, std::array<const char*, 2U>>, 14U> cases{{
+    const std::array<std::pair<std::string, std::array<const char*, 2U>>, 16U> cases{{
         // accepted, refused
         {"kind=encoder_freeze,channel=a,at=1,joint=", {"1", "0"}},
         {"kind=encoder_freeze,channel=a,at=1,joint=", {"7", "8"}},
@@ -156,6 +157,8 @@ TEST(FaultPlanTest, BothSidesOfEveryLimit) {
         {"kind=brake_fade,joint=1,at=1,magnitude=", {"1", "1.001"}},
         {"kind=brake_fade,joint=1,at=1,magnitude=", {"0.001", "0"}},
         {"kind=message_late,at=1,magnitude=", {"10", "10.1"}},
+        {"kind=brake_creep,joint=1,at=1,magnitude=", {"1", "1.001"}},
+        {"kind=brake_creep,joint=1,at=1,magnitude=", {"0.001", "0"}},
     }};
 
     for (const auto& [text, values] : cases) {
@@ -197,6 +200,7 @@ TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
     const char* const bias = "kind=encoder_bias,joint=4,channel=b,at=1,duration=0.5,magnitude=0.25";
     const char* const runaway = "kind=torque_runaway,joint=5,at=1,duration=0.5,magnitude=-0.5";
     const char* const fade = "kind=brake_fade,joint=6,at=1,duration=0.5,magnitude=0.75";
+    const char* const creep = "kind=brake_creep,joint=7,at=1,duration=0.5,magnitude=0.02";
     const char* const power = "kind=power_loss,at=1,duration=0.5";
 
     EXPECT_TRUE(apply(freeze, during).encoder_a[1].frozen);
@@ -207,6 +211,7 @@ TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
     EXPECT_EQ(apply(bias, during).encoder_a[3].bias_rad, 0.0);
     EXPECT_EQ(apply(runaway, during).torque_runaway[4], -0.5);
     EXPECT_EQ(apply(fade, during).brake_fade[5], 0.75);
+    EXPECT_EQ(apply(creep, during).brake_creep_rad_s[6], 0.02);
     EXPECT_TRUE(apply(power, during).power_lost);
     using Channels = std::array<bool, 2U>;
     const std::string stop = "kind=emergency_stop,at=1,duration=0.5,channel=";
@@ -225,6 +230,7 @@ TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
         EXPECT_EQ(apply(bias, now, apply(bias, during)).encoder_b[3].bias_rad, 0.0);
         EXPECT_FALSE(apply(runaway, now, apply(runaway, during)).torque_runaway[4]);
         EXPECT_EQ(apply(fade, now, apply(fade, during)).brake_fade[5], 0.0);
+        EXPECT_EQ(apply(creep, now, apply(creep, during)).brake_creep_rad_s[6], 0.0);
         EXPECT_FALSE(apply(power, now, apply(power, during)).power_lost);
         EXPECT_EQ(apply((stop + "both").c_str(), now).emergency_stop_open, (Channels{false, false}));
     }

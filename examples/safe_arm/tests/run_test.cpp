@@ -144,6 +144,22 @@ TEST_F(RunTest, ClosedProtectiveStopNeedsStartOnlyAndTheArmNeverLosesItsTorque) 
     EXPECT_EQ(lines.find("Safe"), std::string::npos) << lines;
 }
 
+TEST_F(RunTest, BrakeThatCreepsInStandbyIsFoundWithinFiveMilliradiansAndTheStartRefused) {
+    verifies("SWR-SAF-034", Technique::kFaultInjection, Polarity::kViolation);
+    const std::string creep = "--fault kind=brake_creep,joint=2,magnitude=0.02,at=0.3 --frames ";
+    ASSERT_EQ(run(arguments(creep + "799")), 0) << messages_;
+    EXPECT_EQ(read_summary()["final_state"], "Standby");
+    ASSERT_EQ(run(arguments(creep + "2500")), 0) << messages_;
+
+    const nlohmann::json summary = read_summary();
+    EXPECT_EQ(summary["final_state"], "Safe");
+    EXPECT_EQ(summary["detected_fault"], "MovementAtRest");
+    EXPECT_TRUE(summary["operational_at_s"].is_null());
+    const double time_s = summary["detected_at_s"].get<double>() - 0.8;
+    EXPECT_GT(0.02 * time_s, kRestTravelRad * 0.9);
+    EXPECT_LT(0.02 * time_s, kRestTravelRad * 1.1);
+}
+
 TEST_F(RunTest, PathThatLeavesTheRangeIsStoppedInsideTheMechanicalRange) {
     verifies("SWR-SAF-007", Technique::kFaultInjection, Polarity::kViolation);
     struct Row {

@@ -35,6 +35,7 @@ FAULT_HELP = """KIND[,key=value...]; default: none
   encoder_bias      joint channel magnitude=RAD, -10 to 10, not 0
   torque_runaway    joint magnitude=FRACTION of the torque limit, -1 to 1, not 0
   message_late      magnitude=SECONDS, above 0 to 10
+  brake_creep       joint magnitude=RAD/S, above 0 to 1
   emergency_stop    channel
   protective_stop   channel
   message_lost, power_loss, controller_hang, supervisor_hang, processor_stops, none

@@ -39,6 +39,7 @@ enum class FaultKind : std::uint8_t {
     kProcessorStops,   ///< the outputs keep their last values, and nothing services the watchdog
     kEmergencyStop,    ///< is pushed; with one channel, the contact of the other one does not open
     kProtectiveStop,   ///< is opened; with one channel, the contact of the other one does not open
+    kBrakeCreep,       ///< a closed brake yields to its load; magnitude: rad/s, above 0 up to 1
     kStartStuck,       ///< the start button stays pushed once it is pushed
     kResetStuck,       ///< the reset button stays pushed once it is pushed
 };

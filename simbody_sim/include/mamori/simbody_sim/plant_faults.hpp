@@ -29,6 +29,8 @@ struct PlantFaults {
     std::array<std::optional<double>, safety::kArmJointCount> torque_runaway{};
     /// Fraction of its torque that the brake has lost, 0 .. 1.
     safety::JointVector brake_fade{};
+    /// Speed at which the closed brake yields to its load [rad/s], >= 0.
+    safety::JointVector brake_creep_rad_s{};
     /// The brake stays open once it is open; its contact says so.
     std::array<bool, safety::kArmJointCount> brake_stuck_open{};
     bool power_lost{false};

@@ -45,6 +45,7 @@ KINDS: Mapping[str, Uses] = {
     "processor_stops": Uses(),
     "emergency_stop": Uses(channel=True),
     "protective_stop": Uses(channel=True),
+    "brake_creep": Uses(joint=True, magnitude=True),
     "start_stuck": Uses(),
     "reset_stuck": Uses(),
 }
