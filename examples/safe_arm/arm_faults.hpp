@@ -35,6 +35,9 @@ enum class ArmFault : std::uint16_t {
     kSwitchDiscrepancy,   ///< the channels of a switch differ for too long
     kProtectiveStop,      ///< the protective stop is open while torque is on
     kMovementAtRest,      ///< the arm moves without torque, behind closed brakes
+    kEnableLost,          ///< the enabling device or the hold-to-run button is released while torque is on
+    kEnablingSqueezed,    ///< the enabling device is squeezed
+    kModeSelector,        ///< the mode was changed, or the selector shows no mode
     kCount,               ///< number of faults
 };
 inline constexpr auto kArmFaultCount = static_cast<std::size_t>(ArmFault::kCount);
@@ -51,7 +54,8 @@ inline constexpr std::array<const char*, kArmFaultCount> kArmFaultNames{
     "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",      "FollowingError", "Overspeed",
     "PositionLimit",      "TorqueDeviation",    "ControllerSilent",  "CommandStale",   "PowerLost",
     "BrakeFault",         "SelfTestFailed",     "MeasurementStale",  "ReactionLate",   "BrakeTestOld",
-    "StopNotFollowed",    "EmergencyStop",      "SwitchDiscrepancy", "ProtectiveStop", "MovementAtRest"};
+    "StopNotFollowed",    "EmergencyStop",      "SwitchDiscrepancy", "ProtectiveStop", "MovementAtRest",
+    "EnableLost",         "EnablingSqueezed",   "ModeSelector"};
 
 }  // namespace safe_arm
 

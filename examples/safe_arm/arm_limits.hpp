@@ -53,6 +53,12 @@ inline constexpr double kFrameS = 0.001;
 
 /// Safely limited speed (SLS): 90 % of the mechanical speed limit [rad/s]. Motions are planned below 80 %.
 inline constexpr mamori::safety::JointVector kSafeSpeedRadS{0.9, 0.9, 1.8, 1.8, 5.65, 5.65, 5.65};
+/// Limits in the modes reduced speed and hold-to-run: together, the joints move the flange by less than
+/// kFlangeSpeedMax in each pose [rad/s, m/s]. Source: ISO 10218-1:2011, 5.6.2
+inline constexpr mamori::safety::JointVector kReducedSpeedRadS{0.07, 0.07, 0.07, 0.07, 0.15, 0.15, 0.15};
+inline constexpr double kFlangeSpeedMax = 0.25;
+/// Speed of the path in these modes: a motion at 80 % of the mechanical limits stays below kReducedSpeedRadS.
+inline constexpr double kReducedPathRate = 0.025;
 /// From the detection of a fault to brakes that bite: confirmation, one frame, closing delay, and the braking
 /// itself. A joint that would leave the safe range within this time at its present speed is stopped at once.
 inline constexpr mamori::Duration kStopTime = 50_ms;
@@ -86,7 +92,8 @@ inline constexpr mamori::safety::JointVector kMaxStepBRad =
 inline constexpr mamori::safety::JointVector kTorqueDeviationNm =
     scale(kTorqueLimitNm, kTorqueDeviationShare, 0.0);
 static_assert(mamori::safety::are_valid(kSafeRange) && mamori::safety::are_valid(kSafeSpeedRadS) &&
-              mamori::safety::are_valid(kMaxStepRad) && mamori::safety::are_valid(kTorqueDeviationNm));
+              mamori::safety::are_valid(kReducedSpeedRadS) && mamori::safety::are_valid(kMaxStepRad) &&
+              mamori::safety::are_valid(kTorqueDeviationNm));
 /// Distance of setpoint and measured position at which operation may begin [rad]: the start is bumpless.
 inline constexpr double kBumplessRad = 0.002;
 /// A joint below this speed stands [rad/s]; the confirmation time hides the step of the coarser encoder.

@@ -40,6 +40,7 @@ Status ArmReader::on_execute(ContextHandle context) noexcept {
     result.start_button = panel.start;
     result.reset_button = panel.reset;
     result.panel_faults = panel.faults;
+    result.mode = panel.mode;
     reading.write(result);
     return Status::kOk;
 }

@@ -23,7 +23,8 @@ inline constexpr auto kArmReactions = mamori::parts(
                    ArmFault::kPowerLost, ArmFault::kBrakeFault, ArmFault::kSelfTestFailed,
                    ArmFault::kMeasurementStale, ArmFault::kReactionLate, ArmFault::kBrakeTestOld,
                    ArmFault::kStopNotFollowed, ArmFault::kEmergencyStop, ArmFault::kSwitchDiscrepancy,
-                   ArmFault::kProtectiveStop, ArmFault::kMovementAtRest>(),
+                   ArmFault::kProtectiveStop, ArmFault::kMovementAtRest, ArmFault::kEnableLost,
+                   ArmFault::kEnablingSqueezed, ArmFault::kModeSelector>(),
     mamori::react(ArmFault::kEncoderImplausible, Reaction::kSs1, mamori::within(2_ms)),
     mamori::react(ArmFault::kEncoderDiscrepancy, Reaction::kSto, mamori::within(2_ms)),
     mamori::react(ArmFault::kEncoderStuck, Reaction::kSto, mamori::within(2_ms)),
@@ -43,7 +44,10 @@ inline constexpr auto kArmReactions = mamori::parts(
     mamori::react(ArmFault::kEmergencyStop, Reaction::kSs1, mamori::within(2_ms)),
     mamori::react(ArmFault::kSwitchDiscrepancy, Reaction::kSs1, mamori::within(2_ms)),
     mamori::react(ArmFault::kProtectiveStop, Reaction::kSs2, mamori::within(2_ms)),
-    mamori::react(ArmFault::kMovementAtRest, Reaction::kSto, mamori::within(2_ms)));
+    mamori::react(ArmFault::kMovementAtRest, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kEnableLost, Reaction::kSs2, mamori::within(2_ms)),
+    mamori::react(ArmFault::kEnablingSqueezed, Reaction::kSs1, mamori::within(2_ms)),
+    mamori::react(ArmFault::kModeSelector, Reaction::kSs1, mamori::within(2_ms)));
 
 /// @param[in] lateness_max latest window start that is tolerated; it depends on the platform.
 constexpr auto make_arm_safety(mamori::Duration lateness_max) noexcept {

@@ -134,8 +134,11 @@ std::uint32_t JointMonitor::judge_motion(const JointState& now) const noexcept {
     }
     const AxisSet outside = unite(calc_position_violations(now.position_rad, kSafeRange),
                                   calc_position_violations(stopped_rad, kSafeRange));
+    // A stop begins with the speed of the mode before.
+    const bool is_reduced = is_controlled() && reading.read().mode != OperatingMode::kAutomatic;
     std::uint32_t faults =
-        flag(calc_speed_violations(now.velocity_rad_s, kSafeSpeedRadS), ArmFault::kOverspeed) |
+        flag(calc_speed_violations(now.velocity_rad_s, is_reduced ? kReducedSpeedRadS : kSafeSpeedRadS),
+             ArmFault::kOverspeed) |
         flag(outside, ArmFault::kPositionLimit);
     if (is_controlled()) {
         faults |= flag(calc_following_errors(command.read().setpoint_rad, now.position_rad,

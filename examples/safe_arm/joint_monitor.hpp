@@ -4,7 +4,7 @@
 /// controller messages are inside their limits. It reports what it sees in this cycle; debouncing and
 /// latching are the fault register's work.
 ///
-/// @satisfies SWR-SAF-005, SWR-SAF-006, SWR-SAF-007, SWR-SAF-008, SWR-SAF-029, SWR-SAF-034
+/// @satisfies SWR-SAF-005, SWR-SAF-006, SWR-SAF-007, SWR-SAF-008, SWR-SAF-029, SWR-SAF-034, SWR-SAF-037
 /// Design: docs/design/safe_arm.md#monitor
 #ifndef EXAMPLES_SAFE_ARM_JOINT_MONITOR_HPP
 #define EXAMPLES_SAFE_ARM_JOINT_MONITOR_HPP

@@ -24,8 +24,11 @@ bool is_pushed(Instant since, Instant now) noexcept {
 
 Buttons calc_buttons(const mamori::sim::FaultPlan& fault, Instant now) noexcept {
     const Instant demanded_at = Instant{} + fault.at;
-    const bool is_emergency_stop = fault.kind == FaultKind::kEmergencyStop;
-    const bool is_operator = is_emergency_stop || fault.kind == FaultKind::kProtectiveStop;
+    const bool is_emergency_stop =
+        fault.kind == FaultKind::kEmergencyStop || fault.kind == FaultKind::kEnablingSqueezed;
+    const bool is_operator = is_emergency_stop || fault.kind == FaultKind::kProtectiveStop ||
+                             fault.kind == FaultKind::kEnablingReleased ||
+                             fault.kind == FaultKind::kRunReleased;
     // A brake that creeps shows before the start only.
     const bool is_early = fault.kind != FaultKind::kBrakeCreep;
     return {(is_early && is_pushed(kStartPushed, now)) ||
@@ -76,6 +79,11 @@ void Machine::apply_software_faults(Instant now) noexcept {
         case FaultKind::kEmergencyStop:
         case FaultKind::kProtectiveStop:
         case FaultKind::kBrakeCreep:
+        case FaultKind::kEnablingReleased:
+        case FaultKind::kEnablingSqueezed:
+        case FaultKind::kRunReleased:
+        case FaultKind::kReducedSpeed:
+        case FaultKind::kHoldToRun:
         case FaultKind::kStartStuck:
         case FaultKind::kResetStuck:
             break;  // faults of the plant

@@ -3,9 +3,9 @@
 /// Evaluates the controls of the operator: switches with two channels, and buttons that count only when they
 /// are pushed and released on purpose.
 ///
-/// @satisfies SWR-SAF-030, SWR-SAF-031, SWR-SAF-032      Design: docs/design/safe_arm.md#operator-panel
-/// Source:    ISO 13849-1:2015, 5.2.2 (manual reset: at the release of the button); ISO 13850 (emergency
-/// stop)
+/// @satisfies SWR-SAF-030, SWR-SAF-031, SWR-SAF-032, SWR-SAF-035, SWR-SAF-036     Design:
+/// docs/design/safe_arm.md#operator-panel Source:    ISO 13849-1:2015, 5.2.2 (manual reset: at the release of
+/// the button); ISO 13850 (emergency stop)
 #ifndef EXAMPLES_SAFE_ARM_OPERATOR_PANEL_HPP
 #define EXAMPLES_SAFE_ARM_OPERATOR_PANEL_HPP
 
@@ -15,6 +15,7 @@
 #include "arm_limits.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
 #include "mamori/safety/redundancy/discrepancy.hpp"
+#include "messages.hpp"
 
 namespace safe_arm {
 
@@ -51,9 +52,25 @@ class PushButton final {
 
 /// What the operator demands in one frame.
 struct PanelState {
+    OperatingMode mode{OperatingMode::kAutomatic};
     std::uint32_t faults{0U};  ///< bit n = ArmFault n
     bool start{false};         ///< a push of the start button ends
     bool reset{false};         ///< a push of the reset button ends
+};
+
+/// Selector with one contact per mode. Thread safety: none. Time: O(modes).
+class ModeSelector final {
+  public:
+    /// One frame. @return true if the mode changes in this frame, or has not been shown for longer than
+    /// kSwitchDiscrepancyTime: between two modes, no contact is closed. The first mode is no change.
+    bool step(const std::array<bool, 3U>& is_selected, mamori::Instant now) noexcept;
+    OperatingMode get_mode() const noexcept { return mode_; }
+    void acknowledge() noexcept { static_cast<void>(timer_.acknowledge()); }
+
+  private:
+    mamori::safety::DiscrepancyTimer timer_{kSwitchDiscrepancyTime};
+    OperatingMode mode_{OperatingMode::kHoldToRun};  ///< until one is shown
+    bool is_known_{false};
 };
 
 class OperatorPanel final {
@@ -64,6 +81,8 @@ class OperatorPanel final {
   private:
     TwoChannelSwitch emergency_stop_{};
     TwoChannelSwitch protective_stop_{};
+    TwoChannelSwitch enabling_{};
+    ModeSelector selector_{};
     PushButton start_{};
     PushButton reset_{};
 };

@@ -51,7 +51,9 @@ bool SafetySupervisor::is_present(FaultIndex fault) noexcept {
         // A stopped machine tests its brakes again after a reset; the fault must not refuse that reset.
         return is_brake_test_old_ && get_state() != SafeState::kSafe && get_state() != SafeState::kSelfTest;
     }
-    if (fault == to_index(ArmFault::kProtectiveStop) && !is_active()) {
+    const bool is_permission =
+        fault == to_index(ArmFault::kProtectiveStop) || fault == to_index(ArmFault::kEnableLost);
+    if (is_permission && !is_active()) {
         return false;  // an arm without torque is not started, and needs no reset
     }
     const std::uint32_t faults = arm_state.read().faults | reading.read().panel_faults;
@@ -67,6 +69,7 @@ void SafetySupervisor::command(SafeState state, const StopOutputs& outputs) noex
     result.torque_source =
         is_testing ? TorqueSource::kBrakeTest
                    : (state == SafeState::kOperational ? TorqueSource::kController : TorqueSource::kStopLoop);
+    result.mode = reading.read().mode;
     stop.write(result);
 }
 

@@ -222,6 +222,12 @@ const safety::ArmInputs& ArmPlant::sample() {
     for (std::size_t i = 0U; i < plant.inputs.emergency_stop_closed.size(); ++i) {
         plant.inputs.emergency_stop_closed[i] = !plant.faults.emergency_stop_open[i];
         plant.inputs.protective_stop_closed[i] = !plant.faults.protective_stop_open[i];
+        plant.inputs.enabling_closed[i] = !plant.faults.enabling_open[i] && !plant.faults.enabling_squeezed;
+    }
+    plant.inputs.enabling_squeezed = plant.faults.enabling_squeezed;
+    plant.inputs.run_button = !plant.faults.run_released;
+    for (std::size_t i = 0U; i < plant.inputs.mode_selected.size(); ++i) {
+        plant.inputs.mode_selected[i] = plant.faults.mode == i;
     }
     return plant.inputs;
 }

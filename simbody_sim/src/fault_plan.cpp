@@ -51,6 +51,16 @@ const char* get_name(FaultKind kind) noexcept {
             return "protective_stop";
         case FaultKind::kBrakeCreep:
             return "brake_creep";
+        case FaultKind::kEnablingReleased:
+            return "enabling_released";
+        case FaultKind::kEnablingSqueezed:
+            return "enabling_squeezed";
+        case FaultKind::kRunReleased:
+            return "run_released";
+        case FaultKind::kReducedSpeed:
+            return "reduced_speed";
+        case FaultKind::kHoldToRun:
+            return "hold_to_run";
         case FaultKind::kStartStuck:
             return "start_stuck";
         case FaultKind::kResetStuck:
@@ -71,19 +81,6 @@ const char* get_name(FaultChannel channel) noexcept {
     return "invalid";
 }
 
-bool may_be_latent(FaultKind kind) noexcept {
-    return kind == FaultKind::kBrakeStuckOpen || kind == FaultKind::kBrakesStuckOpen ||
-           kind == FaultKind::kStoIgnored || kind == FaultKind::kRelayStuck ||
-           kind == FaultKind::kBrakeFade || kind == FaultKind::kStartStuck || kind == FaultKind::kResetStuck;
-}
-
-FaultPlan delay(const FaultPlan& plan, Duration by) noexcept {
-    FaultPlan later = plan;
-    later.at = plan.at + by;
-    later.latent_at = plan.kind == FaultKind::kNone ? Duration{} : by;
-    return later;
-}
-
 namespace {
 
 bool is_of_encoder(FaultKind kind) noexcept {
@@ -92,10 +89,29 @@ bool is_of_encoder(FaultKind kind) noexcept {
 }
 
 bool is_stop(FaultKind kind) noexcept {
-    return kind == FaultKind::kEmergencyStop || kind == FaultKind::kProtectiveStop;
+    return kind == FaultKind::kEmergencyStop || kind == FaultKind::kProtectiveStop ||
+           kind == FaultKind::kEnablingReleased;
+}
+
+bool is_mode(FaultKind kind) noexcept {
+    return kind == FaultKind::kReducedSpeed || kind == FaultKind::kHoldToRun;
 }
 
 }  // namespace
+
+bool may_be_latent(FaultKind kind) noexcept {
+    return kind == FaultKind::kBrakeStuckOpen || kind == FaultKind::kBrakesStuckOpen ||
+           kind == FaultKind::kStoIgnored || kind == FaultKind::kRelayStuck ||
+           kind == FaultKind::kBrakeFade || kind == FaultKind::kStartStuck ||
+           kind == FaultKind::kResetStuck || is_mode(kind);
+}
+
+FaultPlan delay(const FaultPlan& plan, Duration by) noexcept {
+    FaultPlan later = plan;
+    later.at = plan.at + by;
+    later.latent_at = plan.kind == FaultKind::kNone ? Duration{} : by;
+    return later;
+}
 
 bool uses_channel(FaultKind kind) noexcept {
     return is_of_encoder(kind) || is_stop(kind);
@@ -151,6 +167,12 @@ void apply_to_switches(FaultKind kind, std::size_t joint, bool active, PlantFaul
         faults.sto_ignored = active;
     } else if (kind == FaultKind::kRelayStuck) {
         faults.relay_stuck = active;
+    } else if (is_mode(kind)) {
+        faults.mode = active ? (kind == FaultKind::kReducedSpeed ? 1U : 2U) : 0U;
+    } else if (kind == FaultKind::kEnablingSqueezed) {
+        faults.enabling_squeezed = active;
+    } else if (kind == FaultKind::kRunReleased) {
+        faults.run_released = active;
     } else if (kind == FaultKind::kStartStuck) {
         faults.start_stuck = active;
     } else if (kind == FaultKind::kResetStuck) {
@@ -171,8 +193,10 @@ void apply_plant_faults(const FaultPlan& plan, Instant now, PlantFaults& faults)
             apply_to_encoder(plan, active, faults.encoder_b[plan.joint]);
         }
     } else if (is_stop(plan.kind)) {
-        auto& open =
-            plan.kind == FaultKind::kEmergencyStop ? faults.emergency_stop_open : faults.protective_stop_open;
+        auto& open = plan.kind == FaultKind::kEmergencyStop
+                         ? faults.emergency_stop_open
+                         : (plan.kind == FaultKind::kProtectiveStop ? faults.protective_stop_open
+                                                                    : faults.enabling_open);
         open = {active && plan.channel != FaultChannel::kB, active && plan.channel != FaultChannel::kA};
     } else if (plan.kind == FaultKind::kTorqueRunaway) {
         faults.torque_runaway[plan.joint] = active ? std::optional<double>(plan.magnitude) : std::nullopt;
@@ -185,7 +209,7 @@ void apply_plant_faults(const FaultPlan& plan, Instant now, PlantFaults& faults)
     } else {
         apply_to_switches(plan.kind, plan.joint, active, faults);
     }
-    const bool is_latent_active = now >= Instant{} + plan.latent_at;
+    const bool is_latent_active = now >= Instant{} + plan.latent_at || is_mode(plan.latent);
     if (plan.latent == FaultKind::kBrakeFade && is_latent_active) {
         faults.brake_fade[plan.latent_joint] = kLatentFade;
     }

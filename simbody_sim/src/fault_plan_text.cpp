@@ -23,7 +23,7 @@ class PlanError final : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-constexpr std::array<FaultKind, 21U> kKinds{FaultKind::kNone,
+constexpr std::array<FaultKind, 26U> kKinds{FaultKind::kNone,
                                             FaultKind::kEncoderFreeze,
                                             FaultKind::kEncoderBitFlip,
                                             FaultKind::kEncoderBias,
@@ -42,6 +42,11 @@ constexpr std::array<FaultKind, 21U> kKinds{FaultKind::kNone,
                                             FaultKind::kEmergencyStop,
                                             FaultKind::kProtectiveStop,
                                             FaultKind::kBrakeCreep,
+                                            FaultKind::kEnablingReleased,
+                                            FaultKind::kEnablingSqueezed,
+                                            FaultKind::kRunReleased,
+                                            FaultKind::kReducedSpeed,
+                                            FaultKind::kHoldToRun,
                                             FaultKind::kStartStuck,
                                             FaultKind::kResetStuck};
 constexpr std::array<FaultChannel, 3U> kChannels{FaultChannel::kA, FaultChannel::kB, FaultChannel::kBoth};
@@ -187,6 +192,11 @@ double to_magnitude(FaultKind kind, const std::string& text) {
         case FaultKind::kProcessorStops:
         case FaultKind::kEmergencyStop:
         case FaultKind::kProtectiveStop:
+        case FaultKind::kEnablingReleased:
+        case FaultKind::kEnablingSqueezed:
+        case FaultKind::kRunReleased:
+        case FaultKind::kReducedSpeed:
+        case FaultKind::kHoldToRun:
         case FaultKind::kStartStuck:
         case FaultKind::kResetStuck:
             break;
@@ -217,7 +227,7 @@ void read_latent(const std::string& text, FaultPlan& plan) {
     if (!may_be_latent(plan.latent)) {
         throw PlanError(std::string(get_name(plan.latent)) +
                         " is not a latent fault; valid: brake_stuck_open, brakes_stuck_open, brake_fade, "
-                        "sto_ignored, relay_stuck, start_stuck, reset_stuck");
+                        "sto_ignored, relay_stuck, start_stuck, reset_stuck, reduced_speed, hold_to_run");
     }
     if (uses_joint(plan.latent) != (colon != std::string::npos)) {
         throw PlanError(std::string("latent=") + get_name(plan.latent) +

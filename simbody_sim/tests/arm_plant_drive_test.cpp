@@ -194,6 +194,29 @@ TEST_F(ArmPlantDriveTest, EachChannelOfAStopIsShown) {
     EXPECT_FALSE(sut_.sample().protective_stop_closed[1]);
 }
 
+TEST_F(ArmPlantDriveTest, EnablingDeviceHoldToRunButtonAndModeAreShown) {
+    verifies("SWR-SIM-006", Technique::kInterface);
+    using Contacts = std::array<bool, 3U>;
+    const std::array<bool, 2U> closed{true, true};
+    const std::array<bool, 2U> open{false, false};
+
+    EXPECT_EQ(sut_.sample().enabling_closed, closed);
+    EXPECT_FALSE(sut_.sample().enabling_squeezed);
+    EXPECT_TRUE(sut_.sample().run_button);
+    EXPECT_EQ(sut_.sample().mode_selected, (Contacts{true, false, false}));
+    sut_.faults().enabling_squeezed = true;
+    sut_.faults().run_released = true;
+    sut_.faults().mode = 2U;
+    EXPECT_EQ(sut_.sample().enabling_closed, open);
+    EXPECT_TRUE(sut_.sample().enabling_squeezed);
+    EXPECT_FALSE(sut_.sample().run_button);
+    EXPECT_EQ(sut_.sample().mode_selected, (Contacts{false, false, true}));
+    sut_.faults().enabling_squeezed = false;
+    sut_.faults().enabling_open = {true, true};
+    EXPECT_EQ(sut_.sample().enabling_closed, open);
+    EXPECT_FALSE(sut_.sample().enabling_squeezed);
+}
+
 TEST_F(ArmPlantDriveTest, AnOpenRelayTakesTorqueAndBrakeCurrentAndItsContactSaysSo) {
     verifies("SWR-SIM-006");
     hold_for(100_ms);

@@ -51,7 +51,7 @@ TEST(FaultPlanTest, AFaultStaysUnlessItIsSaidOtherwise) {
 
 TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
     verifies("SWR-SIM-011", Technique::kEquivalenceClasses);
-    const std::array<std::string, 20U> texts{
+    const std::array<std::string, 23U> texts{
         "kind=none",
         "kind=none,seed=18446744073709551615",
         "kind=encoder_freeze,joint=1,channel=a,at=2",
@@ -71,6 +71,9 @@ TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
         "kind=emergency_stop,channel=both,at=1,duration=0.5",
         "kind=protective_stop,channel=a,at=1",
         "kind=brake_creep,joint=2,at=1,magnitude=0.02",
+        "kind=enabling_released,channel=b,at=1,latent=hold_to_run",
+        "kind=enabling_squeezed,at=1,latent=reduced_speed",
+        "kind=run_released,at=1",
         "kind=power_loss,at=1,latent=reset_stuck"};
 
     for (const std::string& text : texts) {
@@ -101,7 +104,8 @@ TEST(FaultPlanTest, EveryKindIsListedOnceAndNoOther) {
               "none, encoder_freeze, encoder_bit_flip, encoder_bias, torque_runaway, power_loss, brake_fade, "
               "controller_hang, message_lost, message_late, supervisor_hang, brake_stuck_open, "
               "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops, emergency_stop, "
-              "protective_stop, brake_creep, start_stuck, "
+              "protective_stop, brake_creep, enabling_released, enabling_squeezed, run_released, "
+              "reduced_speed, hold_to_run, start_stuck, "
               "reset_stuck");
 }
 
@@ -220,6 +224,13 @@ TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
     EXPECT_EQ(apply((stop + "both").c_str(), during).emergency_stop_open, (Channels{true, true}));
     EXPECT_EQ(apply("kind=protective_stop,channel=b,at=1", during).protective_stop_open,
               (Channels{false, true}));
+    EXPECT_EQ(apply("kind=enabling_released,channel=a,at=1", during).enabling_open, (Channels{true, false}));
+    EXPECT_TRUE(apply("kind=enabling_squeezed,at=1", during).enabling_squeezed);
+    EXPECT_TRUE(apply("kind=run_released,at=1", during).run_released);
+    EXPECT_EQ(apply("kind=reduced_speed,at=1", before).mode, 0U);
+    EXPECT_EQ(apply("kind=reduced_speed,at=1", during).mode, 1U);
+    EXPECT_EQ(apply("kind=hold_to_run,at=1", during).mode, 2U);
+    EXPECT_EQ(apply("kind=power_loss,at=1,latent=hold_to_run", Instant{0}).mode, 2U) << "since power-up";
     EXPECT_TRUE(apply("kind=start_stuck,at=1", during).start_stuck);
     EXPECT_TRUE(apply("kind=reset_stuck,at=1", during).reset_stuck);
 

@@ -42,6 +42,7 @@ Status ControllerView::on_execute(ContextHandle context) noexcept {
     result.velocity_rad_s = state.read().velocity_rad_s;
     result.is_operational = stop.read().state == SafeState::kOperational;
     result.torque_enable = stop.read().torque_enable && !stop.read().stop_requested;
+    result.is_reduced = stop.read().mode != OperatingMode::kAutomatic;
     out.write(result);
     return Status::kOk;
 }

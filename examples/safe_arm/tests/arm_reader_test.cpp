@@ -47,6 +47,8 @@ TEST_F(ArmReaderTest, ThePanelIsEvaluatedInEachFrame) {
     verifies("SWR-SAF-030", Technique::kInterface);
     ASSERT_EQ(sut_.configure(make_scale()), Status::kOk);
     inputs_.start_button = true;
+    inputs_.enabling_closed.fill(true);
+    inputs_.mode_selected[1] = true;
     const std::array<bool, 4U> pushed{false, true, true, false};
     for (std::size_t i = 0U; i < pushed.size(); ++i) {
         inputs_.reset_button = pushed[i];
@@ -57,6 +59,7 @@ TEST_F(ArmReaderTest, ThePanelIsEvaluatedInEachFrame) {
     EXPECT_EQ(reading.panel_faults, to_bit(ArmFault::kEmergencyStop) | to_bit(ArmFault::kProtectiveStop))
         << "an image that was not filled";
     EXPECT_TRUE(reading.reset_button);
+    EXPECT_EQ(reading.mode, OperatingMode::kReducedSpeed);
     EXPECT_FALSE(reading.start_button);
 }
 

@@ -385,6 +385,30 @@ TEST_F(JointMonitorTest, AnArmOnItsStopIsNoFault) {
     }
 }
 
+TEST_F(JointMonitorTest, EachJointHasItsReducedSpeedInAllModesButAutomatic) {
+    verifies("SWR-SAF-037", Technique::kBoundaryValues, Polarity::kViolation);
+    for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
+        for (const OperatingMode mode : {OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun}) {
+            reading_.mode = mode;
+            EXPECT_EQ(move(joint, kReducedSpeedRadS[joint] * kInside, 8).faults, 0U) << joint;
+            EXPECT_EQ(move(joint, kReducedSpeedRadS[joint] * kOutside, 8).faults,
+                      to_bit(ArmFault::kOverspeed));
+        }
+        reading_.mode = OperatingMode::kAutomatic;
+        EXPECT_EQ(move(joint, kReducedSpeedRadS[joint] * kOutside, 8).faults, 0U) << joint;
+    }
+}
+
+TEST_F(JointMonitorTest, AStopFromAutomaticMayBeginFasterThanTheReducedSpeed) {
+    verifies("SWR-SAF-037");
+    reading_.mode = OperatingMode::kReducedSpeed;
+    drive_.source = TorqueSource::kStopLoop;
+    for (int i = 0; i < 8; ++i) {
+        drive_.stop_setpoint_rad[1] = reading_.position_a_rad[1];
+        ASSERT_EQ(move(1U, 0.5, 1).faults, 0U) << i;
+    }
+}
+
 TEST_F(JointMonitorTest, AnArmThatMovesWithoutTorqueIsReported) {
     verifies("SWR-SAF-034", Technique::kBoundaryValues, Polarity::kViolation);
     drive_ = {};

@@ -18,6 +18,7 @@ class OperatorPanelTest : public ::testing::Test {
     void SetUp() override {
         inputs_.emergency_stop_closed.fill(true);
         inputs_.protective_stop_closed.fill(true);
+        inputs_.mode_selected[0] = true;
         step();
     }
     PanelState step() {
@@ -44,6 +45,19 @@ class OperatorPanelTest : public ::testing::Test {
         return step();
     }
     PanelState push_reset() { return push(&mamori::safety::ArmInputs::reset_button, kPushMin); }
+
+    std::uint32_t select(OperatingMode mode) {
+        inputs_.mode_selected = {};
+        inputs_.mode_selected[static_cast<std::size_t>(mode)] = true;
+        return step().faults;
+    }
+    /// A panel that has seen no other mode, with both circuits of the enabling device closed.
+    void begin_in(OperatingMode mode) {
+        sut_ = OperatorPanel{};
+        inputs_.enabling_closed.fill(true);
+        inputs_.run_button = true;
+        ASSERT_EQ(select(mode), 0U);
+    }
 
     mamori::safety::ArmInputs inputs_{};
     OperatorPanel sut_{};
@@ -171,6 +185,86 @@ TEST_F(OperatorPanelTest, AButtonThatIsPushedAtPowerUpDoesNothingWhenItIsRelease
 
     const PanelState released = panel.step(inputs_, Instant{0} + kPushMin);
     EXPECT_FALSE(released.start || released.reset);
+}
+
+TEST_F(OperatorPanelTest, TheEnablingDeviceIsNeededInAllModesButAutomatic) {
+    verifies("SWR-SAF-035", Technique::kEquivalenceClasses);
+    for (const OperatingMode mode :
+         {OperatingMode::kAutomatic, OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun}) {
+        begin_in(mode);
+        EXPECT_EQ(step_for(200_ms), 0U);
+        inputs_.enabling_closed.fill(false);
+        EXPECT_EQ(step_for(200_ms), mode == OperatingMode::kAutomatic ? 0U : to_bit(ArmFault::kEnableLost));
+    }
+}
+
+TEST_F(OperatorPanelTest, EitherChannelOfTheEnablingDeviceAloneStopsAndTheirDifferenceIsFound) {
+    verifies("SWR-SAF-035", Technique::kFaultInjection, Polarity::kViolation);
+    for (const std::array<bool, 2U>& closed :
+         {std::array<bool, 2U>{true, false}, std::array<bool, 2U>{false, true}}) {
+        begin_in(OperatingMode::kReducedSpeed);
+        inputs_.enabling_closed = closed;
+        EXPECT_EQ(step().faults, to_bit(ArmFault::kEnableLost));
+        EXPECT_EQ(step_for(200_ms), to_bit(ArmFault::kEnableLost) | to_bit(ArmFault::kSwitchDiscrepancy));
+    }
+}
+
+TEST_F(OperatorPanelTest, ASqueezedEnablingDeviceIsADemandOfItsOwnWhereTheDeviceIsNeeded) {
+    verifies("SWR-SAF-035", Technique::kEquivalenceClasses, Polarity::kViolation);
+    for (const OperatingMode mode :
+         {OperatingMode::kAutomatic, OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun}) {
+        begin_in(mode);
+        inputs_.enabling_squeezed = true;
+        EXPECT_EQ(step().faults,
+                  mode == OperatingMode::kAutomatic ? 0U : to_bit(ArmFault::kEnablingSqueezed));
+        inputs_.enabling_squeezed = false;
+    }
+}
+
+TEST_F(OperatorPanelTest, TheHoldToRunButtonIsNeededInItsModeOnly) {
+    verifies("SWR-SAF-035", Technique::kEquivalenceClasses, Polarity::kViolation);
+    for (const OperatingMode mode :
+         {OperatingMode::kAutomatic, OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun}) {
+        begin_in(mode);
+        inputs_.run_button = false;
+        EXPECT_EQ(step().faults, mode == OperatingMode::kHoldToRun ? to_bit(ArmFault::kEnableLost) : 0U);
+    }
+}
+
+TEST_F(OperatorPanelTest, TheSelectorGivesTheMode) {
+    verifies("SWR-SAF-036");
+    for (const OperatingMode mode :
+         {OperatingMode::kAutomatic, OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun}) {
+        begin_in(mode);
+        EXPECT_EQ(step().mode, mode);
+    }
+    OperatorPanel panel;
+    inputs_.mode_selected = {};
+    EXPECT_EQ(panel.step(inputs_, now_).mode, OperatingMode::kHoldToRun)
+        << "the strictest one until one is shown";
+}
+
+TEST_F(OperatorPanelTest, AChangeOfTheModeIsAFaultInItsFrame) {
+    verifies("SWR-SAF-036", Technique::kStateTransition, Polarity::kViolation);
+    inputs_.enabling_closed.fill(true);
+    EXPECT_EQ(select(OperatingMode::kReducedSpeed), to_bit(ArmFault::kModeSelector));
+    EXPECT_EQ(step().faults, 0U);
+    EXPECT_EQ(step().mode, OperatingMode::kReducedSpeed);
+    EXPECT_EQ(select(OperatingMode::kAutomatic), to_bit(ArmFault::kModeSelector));
+}
+
+TEST_F(OperatorPanelTest, NoModeAndSeveralModesAreAFaultAfterTheirTimeUntilAReset) {
+    verifies("SWR-SAF-036", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const std::array<bool, 3U>& contacts :
+         {std::array<bool, 3U>{}, std::array<bool, 3U>{true, true, false}}) {
+        begin_in(OperatingMode::kAutomatic);
+        inputs_.mode_selected = contacts;
+        EXPECT_EQ(step_for(kSwitchDiscrepancyTime + kFrame), 0U);
+        EXPECT_EQ(step().faults, to_bit(ArmFault::kModeSelector));
+        EXPECT_EQ(step().mode, OperatingMode::kAutomatic) << "the last one that was shown";
+        EXPECT_EQ(select(OperatingMode::kAutomatic), to_bit(ArmFault::kModeSelector));
+        EXPECT_EQ(push_reset().faults, 0U);
+    }
 }
 
 }  // namespace

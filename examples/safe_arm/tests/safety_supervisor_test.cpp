@@ -309,6 +309,39 @@ TEST_F(SafetySupervisorTest, AProtectiveStopHoldsTheArmUntilItIsClosedAndStartIs
     EXPECT_EQ(step().state, SafeState::kOperational);
 }
 
+TEST_F(SafetySupervisorTest, ALostEnableHoldsTheArmUntilStartAndNeedsNoResetInStandby) {
+    verifies("SWR-SAF-035", Technique::kStateTransition);
+    step_until(SafeState::kStandby, 400);
+    reading_.mode = OperatingMode::kHoldToRun;
+    reading_.panel_faults = to_bit(ArmFault::kEnableLost);
+    EXPECT_EQ(step().state, SafeState::kStandby);
+    reading_.panel_faults = 0U;
+    step();
+    EXPECT_EQ(operate().mode, OperatingMode::kHoldToRun);
+    reading_.panel_faults = to_bit(ArmFault::kEnableLost);
+    step();
+    EXPECT_EQ(step().state, SafeState::kStandstillHold);
+    reading_.panel_faults = 0U;
+    EXPECT_EQ(step().state, SafeState::kStandstillHold);
+
+    reading_.start_button = true;
+    step();
+    reading_.start_button = false;
+    EXPECT_EQ(step().state, SafeState::kOperational);
+}
+
+TEST_F(SafetySupervisorTest, AChangeOfTheModeNeedsResetAndStart) {
+    verifies("SWR-SAF-036", Technique::kStateTransition, Polarity::kViolation);
+    step_until(SafeState::kStandby, 400);
+    reading_.panel_faults = to_bit(ArmFault::kModeSelector);
+    EXPECT_EQ(step().state, SafeState::kSafe);
+    reading_.panel_faults = 0U;
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kSafe);
+    reading_.reset_button = true;
+    EXPECT_EQ(step().state, SafeState::kSelfTest);
+}
+
 TEST_F(SafetySupervisorTest, StartDoesNothingWhileTheProtectiveStopIsOpen) {
     verifies("SWR-SAF-033", Technique::kErrorGuessing, Polarity::kViolation);
     step_until(SafeState::kStandby, 400);

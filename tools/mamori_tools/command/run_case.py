@@ -36,13 +36,13 @@ FAULT_HELP = """KIND[,key=value...]; default: none
   torque_runaway    joint magnitude=FRACTION of the torque limit, -1 to 1, not 0
   message_late      magnitude=SECONDS, above 0 to 10
   brake_creep       joint magnitude=RAD/S, above 0 to 1
-  emergency_stop    channel
-  protective_stop   channel
-  message_lost, power_loss, controller_hang, supervisor_hang, processor_stops, none
+  emergency_stop, protective_stop, enabling_released: channel
+  message_lost, power_loss, controller_hang, supervisor_hang, processor_stops,
+  enabling_squeezed, run_released, reduced_speed, hold_to_run, none
 Each kind except none takes at=SECONDS of the motion, before its end, and duration=SECONDS; default: to the end.
 A second fault that shows nothing by itself: latent=brake_stuck_open:JOINT,
 brake_fade:JOINT, brakes_stuck_open, sto_ignored, relay_stuck,
-start_stuck or reset_stuck"""
+start_stuck, reset_stuck, or since power-up the mode reduced_speed or hold_to_run"""
 KEYS = ("joint", "channel", "magnitude", "at", "duration", "latent")
 REJECTED_INPUT = 2
 """Exit status of the program for rejected input."""

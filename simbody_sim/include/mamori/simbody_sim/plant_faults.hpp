@@ -38,6 +38,10 @@ struct PlantFaults {
     bool relay_stuck{false};  ///< the relay stays closed once it is closed; its contact says so
     std::array<bool, 2U> emergency_stop_open{};   ///< circuit of the channel: pushed, or a broken wire
     std::array<bool, 2U> protective_stop_open{};  ///< circuit of the channel
+    std::array<bool, 2U> enabling_open{};         ///< circuit of the channel: released, or a broken wire
+    bool enabling_squeezed{false};                ///< opens both circuits, too
+    bool run_released{false};                     ///< the hold-to-run button is not held
+    std::size_t mode{0U};                         ///< contact of the mode selector that is closed
     bool start_stuck{false};                      ///< the button stays pushed once it is pushed
     bool reset_stuck{false};                      ///< likewise
 };

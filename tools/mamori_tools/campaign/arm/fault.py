@@ -46,10 +46,16 @@ KINDS: Mapping[str, Uses] = {
     "emergency_stop": Uses(channel=True),
     "protective_stop": Uses(channel=True),
     "brake_creep": Uses(joint=True, magnitude=True),
+    "enabling_released": Uses(channel=True),
+    "enabling_squeezed": Uses(),
+    "run_released": Uses(),
+    "reduced_speed": Uses(),
+    "hold_to_run": Uses(),
     "start_stuck": Uses(),
     "reset_stuck": Uses(),
 }
-LATENT_KINDS = ("brake_stuck_open", "brakes_stuck_open", "brake_fade", "sto_ignored", "relay_stuck", "start_stuck", "reset_stuck")
+LATENT_KINDS = ("brake_stuck_open", "brakes_stuck_open", "brake_fade", "sto_ignored", "relay_stuck", "start_stuck", "reset_stuck",
+                "reduced_speed", "hold_to_run")  # fmt: skip
 
 _KEYS = frozenset({"kind", "joint", "channel", "magnitude", "duration_s", "min_speed_rad_s", "latent"})
 
@@ -60,7 +66,7 @@ class FaultSpec:
 
     `min_speed_rad_s`: the injection waits until that joint reaches this speed; None: no waiting.
     `duration_s`: None means until the end of the run.
-    `latent`: a second fault that shows nothing by itself, as `kind` or `kind:joint`; empty: none. Present since the start of the motion, or,
+    `latent`: a second fault, or an operating mode, that shows nothing by itself, as `kind` or `kind:joint`; empty: none. A mode: since power-up. Present since the start of the motion, or,
     with the kind `none`, since power-up.
     """
 
