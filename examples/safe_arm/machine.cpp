@@ -11,7 +11,7 @@ using mamori::Instant;
 using mamori::sim::FaultKind;
 
 constexpr Duration kPush{50'000'000};
-constexpr Instant kStartPushed{200'000'000};
+constexpr Instant kStartPushed{250'000'000};
 /// From the demand of a stop.
 constexpr Duration kResetAfter{1'000'000'000};
 constexpr Duration kRestartAfter{1'400'000'000};

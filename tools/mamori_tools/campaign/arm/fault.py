@@ -66,8 +66,8 @@ class FaultSpec:
 
     `min_speed_rad_s`: the injection waits until that joint reaches this speed; None: no waiting.
     `duration_s`: None means until the end of the run.
-    `latent`: a second fault, or an operating mode, that shows nothing by itself, as `kind` or `kind:joint`; empty: none. A mode: since power-up. Present since the start of the motion, or,
-    with the kind `none`, since power-up.
+    `latent`: a second fault, or an operating mode, that shows nothing by itself, as `kind` or `kind:joint`; empty: none. A mode is present
+    since power-up; a fault since the start of the motion, or, with the kind `none`, since power-up.
     """
 
     kind: str
