@@ -31,6 +31,13 @@ enum class ArmFault : std::uint16_t {
     kReactionLate,        ///< the outputs did not show a reaction within its time
     kBrakeTestOld,        ///< the last passed brake test is too long ago
     kStopNotFollowed,     ///< the arm leaves the ramp of its stop, or the place of its hold
+    kEmergencyStop,       ///< the emergency stop is pushed, or a channel of it is open
+    kSwitchDiscrepancy,   ///< the channels of a switch differ for too long
+    kProtectiveStop,      ///< the protective stop is open while torque is on
+    kMovementAtRest,      ///< the arm moves without torque, behind closed brakes
+    kEnableLost,          ///< the enabling device or the hold-to-run button is released while torque is on
+    kEnablingSqueezed,    ///< the enabling device is squeezed
+    kModeSelector,        ///< the mode was changed, or the selector shows no mode
     kCount,               ///< number of faults
 };
 inline constexpr auto kArmFaultCount = static_cast<std::size_t>(ArmFault::kCount);
@@ -44,10 +51,11 @@ constexpr std::uint32_t to_bit(ArmFault fault) noexcept {
 
 /// Spelling of a fault in logs and reports, indexed by its number.
 inline constexpr std::array<const char*, kArmFaultCount> kArmFaultNames{
-    "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",    "FollowingError",
-    "Overspeed",          "PositionLimit",      "TorqueDeviation", "ControllerSilent",
-    "CommandStale",       "PowerLost",          "BrakeFault",      "SelfTestFailed",
-    "MeasurementStale",   "ReactionLate",       "BrakeTestOld",    "StopNotFollowed"};
+    "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",      "FollowingError", "Overspeed",
+    "PositionLimit",      "TorqueDeviation",    "ControllerSilent",  "CommandStale",   "PowerLost",
+    "BrakeFault",         "SelfTestFailed",     "MeasurementStale",  "ReactionLate",   "BrakeTestOld",
+    "StopNotFollowed",    "EmergencyStop",      "SwitchDiscrepancy", "ProtectiveStop", "MovementAtRest",
+    "EnableLost",         "EnablingSqueezed",   "ModeSelector"};
 
 }  // namespace safe_arm
 

@@ -56,13 +56,19 @@ inline constexpr double kFrameS = 0.001;
 inline constexpr mamori::safety::JointVector kNoLoadSpeedRadS{1.0, 1.0, 2.0, 2.0, 6.28, 6.28, 6.28};
 /// Safely limited speed (SLS): 90 % of the mechanical limit [rad/s]. Motions are planned below 80 %.
 inline constexpr mamori::safety::JointVector kSafeSpeedRadS{0.9, 0.9, 1.8, 1.8, 5.65, 5.65, 5.65};
+/// Limits in the modes reduced speed and hold-to-run: together, the joints move the flange by less than
+/// kFlangeSpeedMax in each pose [rad/s, m/s]. Source: ISO 10218-1:2011, 5.6.2
+inline constexpr mamori::safety::JointVector kReducedSpeedRadS{0.07, 0.07, 0.07, 0.07, 0.15, 0.15, 0.15};
+inline constexpr double kFlangeSpeedMax = 0.25;
+/// Speed of the path in these modes: a motion at 80 % of the mechanical limits stays below kReducedSpeedRadS.
+inline constexpr double kReducedPathRate = 0.025;
 /// The speed is checked as it will be when the stop begins to act: its change within 4 frames continues for 8
 /// ms, from the middle of the measured mean (2 ms), over the confirmation and the rate of torque (2 frames
 /// each), with 2 ms of margin.
 inline constexpr double kSpeedPrediction = 2.0;
 /// From the detection of a fault to the end of the travel at the measured speed: confirmation and one frame,
-/// and a third of the ramp of a stop. Brakes without a ramp need less. A joint that would leave the safe range
-/// within this time is stopped at once.
+/// and a third of the ramp of a stop. Brakes without a ramp need less. A joint that would leave the safe
+/// range within this time is stopped at once.
 inline constexpr mamori::Duration kStopTime = 90_ms;
 /// Safely limited position (SLP): 2 degrees inside the mechanical range, symmetric [rad].
 inline constexpr mamori::safety::JointVector kSafePositionRad{3.05, 1.60, 3.00, 2.35, 4.41, 2.84, 4.41};
@@ -95,14 +101,16 @@ inline constexpr double kStuckTravelRad = 0.004;
 /// Share of the torque limit by which measured and commanded torque may differ [-].
 inline constexpr double kTorqueDeviationShare = 0.15;
 inline constexpr auto kSafeRange = make_ranges(kSafePositionRad);
-/// Channel B is checked against a position of channel A. When A freezes, B leaves it by one step per frame: it
-/// must stay plausible until the discrepancy is confirmed, or the sound channel would be the distrusted one.
+/// Channel B is checked against a position of channel A. When A freezes, B leaves it by one step per frame:
+/// it must stay plausible until the discrepancy is confirmed, or the sound channel would be the distrusted
+/// one.
 inline constexpr mamori::safety::JointVector kMaxStepBRad =
     scale(kMaxStepRad, kDiscrepancyFrames, kDiscrepancyRad);
 inline constexpr mamori::safety::JointVector kTorqueDeviationNm =
     scale(kTorqueLimitNm, kTorqueDeviationShare, 0.0);
 static_assert(mamori::safety::are_valid(kSafeRange) && mamori::safety::are_valid(kSafeSpeedRadS) &&
-              mamori::safety::are_valid(kMaxStepRad) && mamori::safety::are_valid(kTorqueDeviationNm));
+              mamori::safety::are_valid(kReducedSpeedRadS) && mamori::safety::are_valid(kMaxStepRad) &&
+              mamori::safety::are_valid(kTorqueDeviationNm));
 /// Distance of setpoint and measured position at which operation may begin [rad]: the start is bumpless.
 inline constexpr double kBumplessRad = 0.002;
 /// A joint below this speed stands [rad/s]; the confirmation time hides the step of the coarser encoder.
@@ -132,6 +140,10 @@ inline constexpr mamori::safety::JointVector kStopDamping{330.0, 330.0, 95.0, 95
 inline constexpr double kStopRampS = 0.25;
 /// Distance between the ramp of a stop, or the place of a hold, and the measured position [rad].
 inline constexpr double kStopDeviationRad = 0.03;
+/// Distance by which the arm may move without torque, once the brakes have had kBrakeFeedbackTime [rad]. The
+/// channels may differ by less.
+inline constexpr double kRestTravelRad = 0.005;
+static_assert(kRestTravelRad > kDiscrepancyRad);
 /// Feedback of a switch-off path may contradict its command for this long.
 inline constexpr mamori::Duration kPathTime = 20_ms;
 /// Brake test: all drives push with their torque limit against the closed brakes, first forwards, then
@@ -141,6 +153,11 @@ inline constexpr mamori::Duration kBrakeTestHold = 30_ms;
 inline constexpr double kBrakeTestTravelRad = 0.0025;
 /// A start needs a passed brake test that is not older than this; a longer operation is stopped.
 inline constexpr mamori::Duration kBrakeTestInterval{std::int64_t{8} * 3600 * 1'000'000'000};
+/// Channels of one switch may differ for this long: its contacts do not open and close at the same instant.
+inline constexpr mamori::Duration kSwitchDiscrepancyTime = 100_ms;
+/// A push of a button counts if it lasts for at least and at most this time: no bounce, and no stuck button.
+inline constexpr mamori::Duration kPushMin = 20_ms;
+inline constexpr mamori::Duration kPushMax = 3000_ms;
 /// The self test begins with this many good frames in a row, and not before this time: links between
 /// processes need a few frames to start. They come within kSelfTestTime.
 inline constexpr mamori::Duration kQuietTime = 40_ms;

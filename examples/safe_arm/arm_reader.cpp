@@ -21,7 +21,7 @@ Status ArmReader::on_activated(ContextHandle) noexcept {
     return is_configured_ ? Status::kOk : Status::kPreconditionNotMet;
 }
 
-Status ArmReader::on_execute(ContextHandle) noexcept {
+Status ArmReader::on_execute(ContextHandle context) noexcept {
     JointReading result{};
     result.brakes_open = true;
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
@@ -36,8 +36,11 @@ Status ArmReader::on_execute(ContextHandle) noexcept {
     result.torque_enabled = inputs_.torque_enabled;
     result.relay_closed = inputs_.relay_closed;
     result.power_good = inputs_.power_good;
-    result.start_button = inputs_.start_button;
-    result.reset_button = inputs_.reset_button;
+    const PanelState panel = panel_.step(inputs_, context.now);
+    result.start_button = panel.start;
+    result.reset_button = panel.reset;
+    result.panel_faults = panel.faults;
+    result.mode = panel.mode;
     reading.write(result);
     return Status::kOk;
 }

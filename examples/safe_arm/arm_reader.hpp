@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Turns the process image of the arm into physical units. First component of the protecting window.
+/// Turns the process image of the arm into physical units, and evaluates the operator panel. First component
+/// of the protecting window.
 ///
 /// @satisfies SWR-SAF-004      Design: docs/design/safe_arm.md#components
 #ifndef EXAMPLES_SAFE_ARM_ARM_READER_HPP
@@ -9,6 +10,7 @@
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
 #include "messages.hpp"
+#include "operator_panel.hpp"
 
 namespace safe_arm {
 
@@ -37,6 +39,7 @@ class ArmReader final : public mamori::Component {
   private:
     const mamori::safety::ArmInputs& inputs_;
     EncoderScale scale_{};
+    OperatorPanel panel_{};
     bool is_configured_{false};
 };
 

@@ -22,7 +22,9 @@ inline constexpr auto kArmReactions = mamori::parts(
                    ArmFault::kTorqueDeviation, ArmFault::kControllerSilent, ArmFault::kCommandStale,
                    ArmFault::kPowerLost, ArmFault::kBrakeFault, ArmFault::kSelfTestFailed,
                    ArmFault::kMeasurementStale, ArmFault::kReactionLate, ArmFault::kBrakeTestOld,
-                   ArmFault::kStopNotFollowed>(),
+                   ArmFault::kStopNotFollowed, ArmFault::kEmergencyStop, ArmFault::kSwitchDiscrepancy,
+                   ArmFault::kProtectiveStop, ArmFault::kMovementAtRest, ArmFault::kEnableLost,
+                   ArmFault::kEnablingSqueezed, ArmFault::kModeSelector>(),
     mamori::react(ArmFault::kEncoderImplausible, Reaction::kSs1, mamori::within(2_ms)),
     mamori::react(ArmFault::kEncoderDiscrepancy, Reaction::kSto, mamori::within(2_ms)),
     mamori::react(ArmFault::kEncoderStuck, Reaction::kSto, mamori::within(2_ms)),
@@ -38,7 +40,14 @@ inline constexpr auto kArmReactions = mamori::parts(
     mamori::react(ArmFault::kMeasurementStale, Reaction::kSto, mamori::within(2_ms)),
     mamori::react(ArmFault::kReactionLate, Reaction::kSto, mamori::within(2_ms)),
     mamori::react(ArmFault::kBrakeTestOld, Reaction::kSs1, mamori::within(2_ms)),
-    mamori::react(ArmFault::kStopNotFollowed, Reaction::kSto, mamori::within(2_ms)));
+    mamori::react(ArmFault::kStopNotFollowed, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kEmergencyStop, Reaction::kSs1, mamori::within(2_ms)),
+    mamori::react(ArmFault::kSwitchDiscrepancy, Reaction::kSs1, mamori::within(2_ms)),
+    mamori::react(ArmFault::kProtectiveStop, Reaction::kSs2, mamori::within(2_ms)),
+    mamori::react(ArmFault::kMovementAtRest, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kEnableLost, Reaction::kSs2, mamori::within(2_ms)),
+    mamori::react(ArmFault::kEnablingSqueezed, Reaction::kSs1, mamori::within(2_ms)),
+    mamori::react(ArmFault::kModeSelector, Reaction::kSs1, mamori::within(2_ms)));
 
 /// @param[in] lateness_max latest window start that is tolerated; it depends on the platform.
 constexpr auto make_arm_safety(mamori::Duration lateness_max) noexcept {

@@ -16,7 +16,7 @@
 
 namespace safe_arm {
 
-/// Start of the path: the arm is operational since 0.25 s, the brakes are open, and the position control has
+/// Start of the path: the arm is operational since 0.3 s, the brakes are open, and the position control has
 /// settled.
 inline constexpr mamori::Duration kMotionStart{500'000'000};
 

@@ -24,6 +24,7 @@ Status JointMonitor::on_activated(ContextHandle) noexcept {
     brake_contradiction_for_ = {};
     torque_absent_for_ = {};
     relay_open_for_ = {};
+    resting_for_ = {};
     has_history_ = false;
     return Status::kOk;
 }
@@ -40,8 +41,8 @@ Status JointMonitor::on_execute(ContextHandle context) noexcept {
         result.velocity_rad_s[j] =
             (result.position_rad[j] - past_rad_[oldest_][j]) / (static_cast<double>(kSpeedCycles) * kFrameS);
     }
-    result.faults |=
-        judge_stuck(now) | judge_motion(result) | judge_torque(now) | judge_brakes(now) | judge_power(now);
+    result.faults |= judge_stuck(now) | judge_motion(result) | judge_torque(now) | judge_brakes(now) |
+                     judge_power(now) | check_rest(result);
     const bool is_fresh = is_command_fresh(context.now);
     if (is_controlled() && !is_fresh) {
         result.faults |= to_bit(ArmFault::kCommandStale);
@@ -68,6 +69,7 @@ void JointMonitor::begin_history(const JointReading& now) noexcept {
     last_rad_ = now.position_a_rad;
     last_ = now;
     stuck_since_rad_ = command.read().setpoint_rad;
+    resting_for_ = {};
     has_history_ = true;
 }
 
@@ -137,8 +139,11 @@ std::uint32_t JointMonitor::judge_motion(const JointState& now) noexcept {
     past_rad_s_[oldest_] = now.velocity_rad_s;
     const AxisSet outside = unite(calc_position_violations(now.position_rad, kSafeRange),
                                   calc_position_violations(stopped_rad, kSafeRange));
-    std::uint32_t faults = flag(unite(calc_speed_violations(predicted_rad_s, kSafeSpeedRadS),
-                                      calc_speed_violations(now.velocity_rad_s, kSafeSpeedRadS)),
+    // A stop begins with the speed of the mode before.
+    const bool is_reduced = is_controlled() && reading.read().mode != OperatingMode::kAutomatic;
+    const JointVector& speed_max_rad_s = is_reduced ? kReducedSpeedRadS : kSafeSpeedRadS;
+    std::uint32_t faults = flag(unite(calc_speed_violations(predicted_rad_s, speed_max_rad_s),
+                                      calc_speed_violations(now.velocity_rad_s, speed_max_rad_s)),
                                 ArmFault::kOverspeed) |
                            flag(outside, ArmFault::kPositionLimit);
     if (is_controlled()) {
@@ -181,6 +186,16 @@ std::uint32_t JointMonitor::judge_brakes(const JointReading& now) noexcept {
     const bool is_contradicted = drive.has_value() && !is_obeyed;
     brake_contradiction_for_ = is_contradicted ? brake_contradiction_for_ + kFrame : Duration{0};
     return brake_contradiction_for_ > kBrakeFeedbackTime ? to_bit(ArmFault::kBrakeFault) : 0U;
+}
+
+/// Without torque, only the brakes hold the arm. A reset begins again: the brake test decides then.
+std::uint32_t JointMonitor::check_rest(const JointState& now) noexcept {
+    resting_for_ = is_torque_on() ? Duration{0} : resting_for_ + kFrame;
+    if (resting_for_ <= kBrakeFeedbackTime) {
+        rest_rad_ = now.position_rad;
+    }
+    return flag(calc_following_errors(rest_rad_, now.position_rad, make_uniform(kRestTravelRad)),
+                ArmFault::kMovementAtRest);
 }
 
 bool JointMonitor::is_command_fresh(Instant now) const noexcept {

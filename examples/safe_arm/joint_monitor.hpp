@@ -4,7 +4,8 @@
 /// controller messages are inside their limits. It reports what it sees in this cycle; debouncing and
 /// latching are the fault register's work.
 ///
-/// @satisfies SWR-SAF-005, SWR-SAF-006, SWR-SAF-007, SWR-SAF-008, SWR-SAF-029, SWR-SAF-043
+/// @satisfies SWR-SAF-005, SWR-SAF-006, SWR-SAF-007, SWR-SAF-008, SWR-SAF-029, SWR-SAF-034, SWR-SAF-037
+/// @satisfies SWR-SAF-043
 /// Design: docs/design/safe_arm.md#monitor
 #ifndef EXAMPLES_SAFE_ARM_JOINT_MONITOR_HPP
 #define EXAMPLES_SAFE_ARM_JOINT_MONITOR_HPP
@@ -48,6 +49,7 @@ class JointMonitor final : public mamori::Component {
     std::uint32_t judge_torque(const JointReading& now) noexcept;
     std::uint32_t judge_power(const JointReading& now) noexcept;
     std::uint32_t judge_brakes(const JointReading& now) noexcept;
+    std::uint32_t check_rest(const JointState& now) noexcept;
     bool is_command_fresh(mamori::Instant now) const noexcept;
     bool is_controlled() const noexcept {
         return is_torque_on() && drive.read().source == TorqueSource::kController;
@@ -67,6 +69,8 @@ class JointMonitor final : public mamori::Component {
     mamori::Duration brake_contradiction_for_{};
     mamori::Duration torque_absent_for_{};
     mamori::Duration relay_open_for_{};
+    mamori::Duration resting_for_{};
+    JointVector rest_rad_{};  ///< where the brakes engaged
     bool has_history_{false};
 };
 

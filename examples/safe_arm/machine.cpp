@@ -10,19 +10,37 @@ using mamori::Duration;
 using mamori::Instant;
 using mamori::sim::FaultKind;
 
-constexpr Instant kStartPressed{250000000};
-constexpr Instant kStartReleased{350000000};
+constexpr Duration kPush{50'000'000};
+constexpr Instant kStartPushed{250'000'000};
+/// From the demand of a stop.
+constexpr Duration kResetAfter{1'000'000'000};
+constexpr Duration kRestartAfter{1'400'000'000};
+
+bool is_pushed(Instant since, Instant now) noexcept {
+    return now >= since && now < since + kPush;
+}
 
 }  // namespace
 
-bool is_start_pressed(Instant now) noexcept {
-    return now >= kStartPressed && now < kStartReleased;
+Buttons calc_buttons(const mamori::sim::FaultPlan& fault, Instant now) noexcept {
+    const Instant demanded_at = Instant{} + fault.at;
+    const bool is_emergency_stop =
+        fault.kind == FaultKind::kEmergencyStop || fault.kind == FaultKind::kEnablingSqueezed;
+    const bool is_operator = is_emergency_stop || fault.kind == FaultKind::kProtectiveStop ||
+                             fault.kind == FaultKind::kEnablingReleased ||
+                             fault.kind == FaultKind::kRunReleased;
+    // A brake that creeps shows before the start only.
+    const bool is_early = fault.kind != FaultKind::kBrakeCreep;
+    return {(is_early && is_pushed(kStartPushed, now)) ||
+                ((is_operator || !is_early) && is_pushed(demanded_at + kRestartAfter, now)),
+            is_emergency_stop && is_pushed(demanded_at + kResetAfter, now)};
 }
 
 void Machine::sample(std::uint64_t, Instant now) noexcept {
     mamori::sim::apply_plant_faults(fault_, now, plant_.faults());
     apply_software_faults(now);
-    plant_.set_buttons(is_start_pressed(now), false);
+    const Buttons buttons = calc_buttons(fault_, now);
+    plant_.set_buttons(buttons.start, buttons.reset);
     inputs = plant_.sample();
 }
 
@@ -66,6 +84,16 @@ void Machine::apply_software_faults(Instant now) noexcept {
         case FaultKind::kBrakesStuckOpen:
         case FaultKind::kStoIgnored:
         case FaultKind::kRelayStuck:
+        case FaultKind::kEmergencyStop:
+        case FaultKind::kProtectiveStop:
+        case FaultKind::kBrakeCreep:
+        case FaultKind::kEnablingReleased:
+        case FaultKind::kEnablingSqueezed:
+        case FaultKind::kRunReleased:
+        case FaultKind::kReducedSpeed:
+        case FaultKind::kHoldToRun:
+        case FaultKind::kStartStuck:
+        case FaultKind::kResetStuck:
             break;  // faults of the plant
     }
     channel.set_fault(channel_fault);

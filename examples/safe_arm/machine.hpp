@@ -13,8 +13,16 @@
 
 namespace safe_arm {
 
-/// The operator presses start once, long after the end of the self test.
-bool is_start_pressed(mamori::Instant now) noexcept;
+/// Buttons of the operator.
+struct Buttons {
+    bool start{false};
+    bool reset{false};
+};
+/// The operator pushes start after the self test. After a stop that the operator demanded by the fault plan
+/// (`emergency_stop`, `enabling_squeezed`), the operator pushes reset and, when the next self test has ended,
+/// start; after `protective_stop`, `enabling_released` and `run_released`, only start. With `brake_creep`,
+/// the first start comes that late.
+Buttons calc_buttons(const mamori::sim::FaultPlan& fault, mamori::Instant now) noexcept;
 
 /// Devices of the run. Calls the recorder after each major frame. All references must outlive this object.
 class Machine final : public mamori::Devices {

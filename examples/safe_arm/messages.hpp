@@ -19,7 +19,14 @@ namespace safe_arm {
 using mamori::safety::JointVector;
 using mamori::safety::kArmJointCount;
 
-/// Device image in physical units; nothing is judged yet.
+/// Set by the mode selector. In all modes but kAutomatic, the arm is slow and needs the enabling device.
+enum class OperatingMode : std::uint8_t {
+    kAutomatic,
+    kReducedSpeed,
+    kHoldToRun,  ///< needs the hold-to-run button, too
+};
+
+/// Device image in physical units, and what the operator demands. Nothing else is checked yet.
 struct JointReading {
     JointVector position_a_rad{};
     JointVector position_b_rad{};
@@ -29,8 +36,10 @@ struct JointReading {
     bool torque_enabled{false};  ///< feedback
     bool relay_closed{false};    ///< feedback
     bool power_good{false};
-    bool start_button{false};
-    bool reset_button{false};
+    bool start_button{false};  ///< a deliberate push ends in this frame
+    bool reset_button{false};  ///< likewise
+    OperatingMode mode{OperatingMode::kAutomatic};
+    std::uint32_t panel_faults{0U};  ///< of the operator panel; bit n = ArmFault n
 };
 
 /// What the monitor vouches for, and the faults it sees in this cycle (bit n = ArmFault n).
@@ -66,6 +75,7 @@ struct StopCommand {
     bool relay_close{false};     ///< second switch-off path
     TorqueSource torque_source{TorqueSource::kController};
     double brake_test_share{0.0};  ///< of the torque limit, -1 .. 1
+    OperatingMode mode{OperatingMode::kAutomatic};
 };
 
 /// What the drive gate gave to the drives.
@@ -81,11 +91,12 @@ struct DriveCommand {
 }  // namespace safe_arm
 
 MAMORI_FIELDS(safe_arm::JointReading, position_a_rad, position_b_rad, measured_torque_nm, brakes_closed,
-              brakes_open, torque_enabled, relay_closed, power_good, start_button, reset_button)
+              brakes_open, torque_enabled, relay_closed, power_good, start_button, reset_button, mode,
+              panel_faults)
 MAMORI_FIELDS(safe_arm::JointState, position_rad, velocity_rad_s, faults, is_standing, is_setpoint_near)
 MAMORI_FIELDS(safe_arm::TorqueCommand, sequence, sent_at_ns, setpoint_rad, torque_nm)
 MAMORI_FIELDS(safe_arm::StopCommand, state, torque_enable, brake_release, stop_requested, relay_close,
-              torque_source, brake_test_share)
+              torque_source, brake_test_share, mode)
 MAMORI_FIELDS(safe_arm::DriveCommand, torque_nm, torque_enable, brake_release, relay_close, source,
               stop_setpoint_rad)
 

@@ -2,6 +2,7 @@
 #include "model_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "arm_limits.hpp"
 #include "gravity_model.hpp"
@@ -38,6 +39,23 @@ std::string check_gravity(const mamori::sim::ArmModel& model) {
     return {};
 }
 
+/// Largest speed of the flange at the reduced speed of each joint, in any pose [m/s]: the links beyond a
+/// joint are its longest lever, less the part of the next one along its axis.
+double calc_flange_speed(const mamori::sim::ArmModel& model) {
+    double speed = 0.0;
+    double beyond_m = 0.0;
+    for (std::size_t j = kArmJointCount - 1U; j-- > 0U;) {
+        const mamori::sim::Vector3& axis = model.joints[j].axis;
+        const mamori::sim::Vector3& offset = model.joints[j + 1U].offset_m;
+        const double length = std::hypot(offset[0], offset[1], offset[2]);
+        const double along = axis[0] * offset[0] + axis[1] * offset[1] + axis[2] * offset[2];
+        speed +=
+            kReducedSpeedRadS[j] * (std::sqrt(std::max(length * length - along * along, 0.0)) + beyond_m);
+        beyond_m += length;
+    }
+    return speed;
+}
+
 }  // namespace
 
 std::string check_model(const mamori::sim::ArmModel& model) {
@@ -69,6 +87,10 @@ std::string check_model(const mamori::sim::ArmModel& model) {
             return refuse(joint, "coarser encoder step", coarse_step,
                           "below a quarter of the channel tolerance", kDiscrepancyRad / 4.0);
         }
+    }
+    if (!(calc_flange_speed(model) < kFlangeSpeedMax)) {
+        return refuse(model.joints.back(), "speed of the flange at reduced speed [m/s]",
+                      calc_flange_speed(model), "below", kFlangeSpeedMax);
     }
     return check_gravity(model);
 }

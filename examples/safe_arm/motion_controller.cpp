@@ -31,8 +31,8 @@ Status MotionController::on_activated(ContextHandle) noexcept {
 
 Status MotionController::on_execute(ContextHandle context) noexcept {
     const JointState& measured = state.read();
-    if (!stop.read().torque_enable) {
-        // Bumpless: while no torque flows the setpoint is where the arm is.
+    if (!stop.read().torque_enable || stop.read().stop_requested) {
+        // Bumpless: while the torque is not from here, the setpoint is where the arm is.
         hold_rad_ = measured.position_rad;
         is_on_path_ = false;
     } else {
@@ -63,14 +63,22 @@ void MotionController::advance_path(Instant now) noexcept {
         is_on_path_ = is_at_start;
         path_time_s_ = 0.0;
     }
-    path_time_s_ += is_on_path_ ? kFrameS : 0.0;
+    path_time_s_ += is_on_path_ ? kFrameS * get_path_rate() : 0.0;
+}
+
+double MotionController::get_path_rate() const noexcept {
+    return stop.read().mode == OperatingMode::kAutomatic ? 1.0 : kReducedPathRate;
 }
 
 PathPoint MotionController::calc_setpoint() const noexcept {
     if (!is_on_path_) {
         return {hold_rad_, {}, {}};
     }
-    return track_->calc_point(path_time_s_);
+    PathPoint point = track_->calc_point(path_time_s_);
+    const double rate = get_path_rate();
+    point.velocity_rad_s = scale(point.velocity_rad_s, rate, 0.0);
+    point.acceleration_rad_s2 = scale(point.acceleration_rad_s2, rate * rate, 0.0);
+    return point;
 }
 
 }  // namespace safe_arm

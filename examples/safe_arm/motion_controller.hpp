@@ -46,6 +46,7 @@ class MotionController final : public mamori::Component {
 
   private:
     void advance_path(mamori::Instant now) noexcept;
+    double get_path_rate() const noexcept;
     PathPoint calc_setpoint() const noexcept;
 
     const MotionTrack* track_{nullptr};

@@ -40,7 +40,7 @@ void RealTimeMachine::serve() {
             return;
         }
         plant_.set_watchdog_expired(command_.is_watchdog_expired);
-        plant_.set_buttons(command_.is_start_pressed, false);
+        plant_.set_buttons(command_.is_start_pushed, false);
         if (plant_.step(command_.outputs, kFrame) != Status::kOk) {
             is_plant_sound_.store(false, std::memory_order_relaxed);
         }
@@ -74,7 +74,7 @@ void RealTimeMachine::after_opening(const mamori::FrameSchedule::Opening& openin
     if (is_stepping_) {
         return;
     }
-    command_ = {outputs, watchdog.has_expired(), is_start_pressed(end)};
+    command_ = {outputs, watchdog.has_expired(), calc_buttons({}, end).start};
     is_stepping_ = true;
     static_cast<void>(sem_post(&wanted_));
 }

@@ -48,7 +48,7 @@ class RealTimeMachine final : public mamori::ports::posix_rt::OpeningObserver {
     struct Command {
         mamori::safety::ArmOutputs outputs{};
         bool is_watchdog_expired{false};
-        bool is_start_pressed{false};
+        bool is_start_pushed{false};
     };
     void serve();
 

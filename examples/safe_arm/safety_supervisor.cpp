@@ -18,9 +18,12 @@ CycleInputs SafetySupervisor::read_inputs(Instant at) noexcept {
     inputs.is_standing = arm_state.read().is_standing;
     inputs.are_brakes_closed = now.brakes_closed;
     inputs.has_torque = now.torque_enabled;
-    inputs.start_button = now.start_button;
-    inputs.reset_button = now.reset_button;
-    inputs.may_start = arm_state.read().is_setpoint_near;
+    // One push of start ends the hold in its frame, and starts in the next one: no fault needs a reset there.
+    const bool ends_hold = now.start_button && get_state() == SafeState::kStandstillHold;
+    inputs.start_button = (now.start_button && !ends_hold) || has_ended_hold_;
+    inputs.reset_button = now.reset_button || ends_hold;
+    has_ended_hold_ = ends_hold;
+    inputs.may_start = arm_state.read().is_setpoint_near && now.panel_faults == 0U;
     inputs.can_hold =
         true;  // by the gate; one valid encoder channel suffices, an unknown position demands STO
     inputs.applied = {drive.read().torque_enable, drive.read().brake_release,
@@ -48,7 +51,13 @@ bool SafetySupervisor::is_present(FaultIndex fault) noexcept {
         // A stopped machine tests its brakes again after a reset; the fault must not refuse that reset.
         return is_brake_test_old_ && get_state() != SafeState::kSafe && get_state() != SafeState::kSelfTest;
     }
-    return (arm_state.read().faults & (std::uint32_t{1U} << fault)) != 0U;
+    const bool is_permission =
+        fault == to_index(ArmFault::kProtectiveStop) || fault == to_index(ArmFault::kEnableLost);
+    if (is_permission && !is_active()) {
+        return false;  // an arm without torque is not started, and needs no reset
+    }
+    const std::uint32_t faults = arm_state.read().faults | reading.read().panel_faults;
+    return (faults & (std::uint32_t{1U} << fault)) != 0U;
 }
 
 void SafetySupervisor::command(SafeState state, const StopOutputs& outputs) noexcept {
@@ -59,7 +68,8 @@ void SafetySupervisor::command(SafeState state, const StopOutputs& outputs) noex
     result.brake_test_share = is_testing ? start_up_.get_push() : 0.0;
     result.torque_source =
         is_testing ? TorqueSource::kBrakeTest
-                   : (outputs.stop_requested ? TorqueSource::kStopLoop : TorqueSource::kController);
+                   : (state == SafeState::kOperational ? TorqueSource::kController : TorqueSource::kStopLoop);
+    result.mode = reading.read().mode;
     stop.write(result);
 }
 

@@ -4,7 +4,8 @@
 /// machine.
 ///
 /// @satisfies SWR-SAF-013, SWR-SAF-014, SWR-SAF-015, SWR-SAF-018, SWR-SAF-019, SWR-SAF-021, SWR-SAF-022
-/// @satisfies SWR-SAF-023, SWR-SAF-025, SWR-SAF-028      Design: docs/design/safe_arm.md#reactions
+/// @satisfies SWR-SAF-023, SWR-SAF-025, SWR-SAF-028, SWR-SAF-033      Design:
+/// docs/design/safe_arm.md#reactions
 #ifndef EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
 #define EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
 
@@ -38,9 +39,16 @@ class SafetySupervisor final : public mamori::safety::SafetyCycle {
     void command(mamori::safety::SafeState state,
                  const mamori::safety::StopOutputs& outputs) noexcept override;
 
+    /// Torque is on, or a stop is under way.
+    bool is_active() const noexcept {
+        return get_state() >= mamori::safety::SafeState::kOperational &&
+               get_state() <= mamori::safety::SafeState::kStandstillHold;
+    }
+
     StartUpCheck start_up_{};
     mamori::safety::ComplementStored<mamori::Instant> brakes_tested_at_{mamori::Instant{}};
     bool is_brake_test_old_{false};
+    bool has_ended_hold_{false};  ///< in the frame before
 };
 
 }  // namespace safe_arm

@@ -24,7 +24,7 @@ TEST(ArmDeviceTest, EveryFieldOfTheImageTravels) {
 
     visit_scalars(ArmInputs{}, inputs);
     visit_scalars(ArmOutputs{}, outputs);
-    EXPECT_EQ(inputs.scalars, 4U * kArmJointCount + 5U) << "two encoders, torque, brake; five switches";
+    EXPECT_EQ(inputs.scalars, 4U * kArmJointCount + 16U) << "two encoders, torque, brake; 16 contacts";
     EXPECT_EQ(outputs.scalars, kArmJointCount + 3U);
 }
 

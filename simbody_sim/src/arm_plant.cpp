@@ -140,7 +140,8 @@ Status ArmPlant::Impl::integrate() {
         const JointModel& joint = model.joints[i];
         torque[i] = motor_torque[i] - joint.viscous_friction_nm_s_rad * u[i] - multibody.get_bias_torque()[i];
         if (!brake_open[i].is_on()) {
-            torque[i] += brakes[i].hold(joint.brake, faults.brake_fade[i], q[i], u[i]);
+            const double creep_rad = faults.brake_creep_rad_s[i] * to_seconds(kPlantSubstep);
+            torque[i] += brakes[i].hold(joint.brake, faults.brake_fade[i], creep_rad, q[i], u[i]);
         }
     }
     const JointVector acceleration = solve(multibody.get_mass_matrix(), torque);
@@ -218,6 +219,16 @@ const safety::ArmInputs& ArmPlant::sample() {
     plant.inputs.torque_enabled = plant.torque_possible.is_on();
     plant.inputs.relay_closed = plant.relay_closed;
     plant.inputs.power_good = !plant.faults.power_lost;
+    for (std::size_t i = 0U; i < plant.inputs.emergency_stop_closed.size(); ++i) {
+        plant.inputs.emergency_stop_closed[i] = !plant.faults.emergency_stop_open[i];
+        plant.inputs.protective_stop_closed[i] = !plant.faults.protective_stop_open[i];
+        plant.inputs.enabling_closed[i] = !plant.faults.enabling_open[i] && !plant.faults.enabling_squeezed;
+    }
+    plant.inputs.enabling_squeezed = plant.faults.enabling_squeezed;
+    plant.inputs.run_button = !plant.faults.run_released;
+    for (std::size_t i = 0U; i < plant.inputs.mode_selected.size(); ++i) {
+        plant.inputs.mode_selected[i] = plant.faults.mode == i;
+    }
     return plant.inputs;
 }
 
@@ -226,8 +237,9 @@ void ArmPlant::set_watchdog_expired(bool expired) noexcept {
 }
 
 void ArmPlant::set_buttons(bool start, bool reset) noexcept {
-    impl_->inputs.start_button = start;
-    impl_->inputs.reset_button = reset;
+    safety::ArmInputs& inputs = impl_->inputs;
+    inputs.start_button = start || (impl_->faults.start_stuck && inputs.start_button);
+    inputs.reset_button = reset || (impl_->faults.reset_stuck && inputs.reset_button);
 }
 
 void ArmPlant::set_observer(PlantObserver* observer) noexcept {

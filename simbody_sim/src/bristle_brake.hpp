@@ -17,7 +17,9 @@ class BristleBrake final {
     /// Torque on the joint [N m] while closed, never more than what is left of the brake torque.
     /// The anchor is where the joint was at the first call after open().
     /// @param[in] fade fraction of the brake torque that is lost, 0 .. 1.
-    double hold(const BrakeModel& brake, double fade, double q_rad, double u_rad_s) noexcept;
+    /// @param[in] creep_rad    the anchor yields to the load by this much in this step, >= 0.
+    double hold(const BrakeModel& brake, double fade, double creep_rad, double q_rad,
+                double u_rad_s) noexcept;
 
   private:
     bool attached_{false};

@@ -45,6 +45,26 @@ const char* get_name(FaultKind kind) noexcept {
             return "relay_stuck";
         case FaultKind::kProcessorStops:
             return "processor_stops";
+        case FaultKind::kEmergencyStop:
+            return "emergency_stop";
+        case FaultKind::kProtectiveStop:
+            return "protective_stop";
+        case FaultKind::kBrakeCreep:
+            return "brake_creep";
+        case FaultKind::kEnablingReleased:
+            return "enabling_released";
+        case FaultKind::kEnablingSqueezed:
+            return "enabling_squeezed";
+        case FaultKind::kRunReleased:
+            return "run_released";
+        case FaultKind::kReducedSpeed:
+            return "reduced_speed";
+        case FaultKind::kHoldToRun:
+            return "hold_to_run";
+        case FaultKind::kStartStuck:
+            return "start_stuck";
+        case FaultKind::kResetStuck:
+            return "reset_stuck";
         case FaultKind::kMessageDamaged:
             return "message_damaged";
         case FaultKind::kControllerWrong:
@@ -65,9 +85,29 @@ const char* get_name(FaultChannel channel) noexcept {
     return "invalid";
 }
 
+namespace {
+
+bool is_of_encoder(FaultKind kind) noexcept {
+    return kind == FaultKind::kEncoderFreeze || kind == FaultKind::kEncoderBitFlip ||
+           kind == FaultKind::kEncoderBias;
+}
+
+bool is_stop(FaultKind kind) noexcept {
+    return kind == FaultKind::kEmergencyStop || kind == FaultKind::kProtectiveStop ||
+           kind == FaultKind::kEnablingReleased;
+}
+
+bool is_mode(FaultKind kind) noexcept {
+    return kind == FaultKind::kReducedSpeed || kind == FaultKind::kHoldToRun;
+}
+
+}  // namespace
+
 bool may_be_latent(FaultKind kind) noexcept {
     return kind == FaultKind::kBrakeStuckOpen || kind == FaultKind::kBrakesStuckOpen ||
-           kind == FaultKind::kStoIgnored || kind == FaultKind::kRelayStuck || kind == FaultKind::kBrakeFade;
+           kind == FaultKind::kStoIgnored || kind == FaultKind::kRelayStuck ||
+           kind == FaultKind::kBrakeFade || kind == FaultKind::kStartStuck ||
+           kind == FaultKind::kResetStuck || is_mode(kind);
 }
 
 FaultPlan delay(const FaultPlan& plan, Duration by) noexcept {
@@ -78,20 +118,19 @@ FaultPlan delay(const FaultPlan& plan, Duration by) noexcept {
 }
 
 bool uses_channel(FaultKind kind) noexcept {
-    return kind == FaultKind::kEncoderFreeze || kind == FaultKind::kEncoderBitFlip ||
-           kind == FaultKind::kEncoderBias;
+    return is_of_encoder(kind) || is_stop(kind);
 }
 
 bool uses_joint(FaultKind kind) noexcept {
-    return uses_channel(kind) || kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade ||
-           kind == FaultKind::kBrakeStuckOpen;
+    return is_of_encoder(kind) || kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade ||
+           kind == FaultKind::kBrakeStuckOpen || kind == FaultKind::kBrakeCreep;
 }
 
 bool uses_magnitude(FaultKind kind) noexcept {
     return kind == FaultKind::kEncoderBitFlip || kind == FaultKind::kEncoderBias ||
            kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade ||
-           kind == FaultKind::kMessageLate || kind == FaultKind::kMessageDamaged ||
-           kind == FaultKind::kControllerWrong;
+           kind == FaultKind::kBrakeCreep || kind == FaultKind::kMessageLate ||
+           kind == FaultKind::kMessageDamaged || kind == FaultKind::kControllerWrong;
 }
 
 bool is_active(const FaultPlan& plan, Instant now) noexcept {
@@ -133,6 +172,16 @@ void apply_to_switches(FaultKind kind, std::size_t joint, bool active, PlantFaul
         faults.sto_ignored = active;
     } else if (kind == FaultKind::kRelayStuck) {
         faults.relay_stuck = active;
+    } else if (is_mode(kind)) {
+        faults.mode = active ? (kind == FaultKind::kReducedSpeed ? 1U : 2U) : 0U;
+    } else if (kind == FaultKind::kEnablingSqueezed) {
+        faults.enabling_squeezed = active;
+    } else if (kind == FaultKind::kRunReleased) {
+        faults.run_released = active;
+    } else if (kind == FaultKind::kStartStuck) {
+        faults.start_stuck = active;
+    } else if (kind == FaultKind::kResetStuck) {
+        faults.reset_stuck = active;
     }
 }
 
@@ -141,23 +190,31 @@ void apply_to_switches(FaultKind kind, std::size_t joint, bool active, PlantFaul
 void apply_plant_faults(const FaultPlan& plan, Instant now, PlantFaults& faults) noexcept {
     MAMORI_REQUIRE(1, plan.joint < safety::kArmJointCount && plan.latent_joint < safety::kArmJointCount);
     const bool active = is_active(plan, now);
-    if (uses_channel(plan.kind)) {
+    if (is_of_encoder(plan.kind)) {
         if (plan.channel != FaultChannel::kB) {
             apply_to_encoder(plan, active, faults.encoder_a[plan.joint]);
         }
         if (plan.channel != FaultChannel::kA) {
             apply_to_encoder(plan, active, faults.encoder_b[plan.joint]);
         }
+    } else if (is_stop(plan.kind)) {
+        auto& open = plan.kind == FaultKind::kEmergencyStop
+                         ? faults.emergency_stop_open
+                         : (plan.kind == FaultKind::kProtectiveStop ? faults.protective_stop_open
+                                                                    : faults.enabling_open);
+        open = {active && plan.channel != FaultChannel::kB, active && plan.channel != FaultChannel::kA};
     } else if (plan.kind == FaultKind::kTorqueRunaway) {
         faults.torque_runaway[plan.joint] = active ? std::optional<double>(plan.magnitude) : std::nullopt;
     } else if (plan.kind == FaultKind::kBrakeFade) {
         faults.brake_fade[plan.joint] = active ? plan.magnitude : 0.0;
+    } else if (plan.kind == FaultKind::kBrakeCreep) {
+        faults.brake_creep_rad_s[plan.joint] = active ? plan.magnitude : 0.0;
     } else if (plan.kind == FaultKind::kPowerLoss) {
         faults.power_lost = active;
     } else {
         apply_to_switches(plan.kind, plan.joint, active, faults);
     }
-    const bool is_latent_active = now >= Instant{} + plan.latent_at;
+    const bool is_latent_active = now >= Instant{} + plan.latent_at || is_mode(plan.latent);
     if (plan.latent == FaultKind::kBrakeFade && is_latent_active) {
         faults.brake_fade[plan.latent_joint] = kLatentFade;
     }

@@ -23,7 +23,7 @@ class PlanError final : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-constexpr std::array<FaultKind, 18U> kKinds{FaultKind::kNone,
+constexpr std::array<FaultKind, 28U> kKinds{FaultKind::kNone,
                                             FaultKind::kEncoderFreeze,
                                             FaultKind::kEncoderBitFlip,
                                             FaultKind::kEncoderBias,
@@ -39,6 +39,16 @@ constexpr std::array<FaultKind, 18U> kKinds{FaultKind::kNone,
                                             FaultKind::kStoIgnored,
                                             FaultKind::kRelayStuck,
                                             FaultKind::kProcessorStops,
+                                            FaultKind::kEmergencyStop,
+                                            FaultKind::kProtectiveStop,
+                                            FaultKind::kBrakeCreep,
+                                            FaultKind::kEnablingReleased,
+                                            FaultKind::kEnablingSqueezed,
+                                            FaultKind::kRunReleased,
+                                            FaultKind::kReducedSpeed,
+                                            FaultKind::kHoldToRun,
+                                            FaultKind::kStartStuck,
+                                            FaultKind::kResetStuck,
                                             FaultKind::kMessageDamaged,
                                             FaultKind::kControllerWrong};
 constexpr std::array<FaultChannel, 3U> kChannels{FaultChannel::kA, FaultChannel::kB, FaultChannel::kBoth};
@@ -165,6 +175,9 @@ double to_magnitude(FaultKind kind, const std::string& text) {
             demand(value > 0.0 && value <= 1.0,
                    "the lost fraction of the brake torque, above 0 and at most 1");
             break;
+        case FaultKind::kBrakeCreep:
+            demand(value > 0.0 && value <= 1.0, "a speed above 0 and at most 1 rad/s");
+            break;
         case FaultKind::kMessageLate:
             demand(value > 0.0 && value <= 10.0, "a delay above 0 s and at most 10 s");
             break;
@@ -186,6 +199,15 @@ double to_magnitude(FaultKind kind, const std::string& text) {
         case FaultKind::kStoIgnored:
         case FaultKind::kRelayStuck:
         case FaultKind::kProcessorStops:
+        case FaultKind::kEmergencyStop:
+        case FaultKind::kProtectiveStop:
+        case FaultKind::kEnablingReleased:
+        case FaultKind::kEnablingSqueezed:
+        case FaultKind::kRunReleased:
+        case FaultKind::kReducedSpeed:
+        case FaultKind::kHoldToRun:
+        case FaultKind::kStartStuck:
+        case FaultKind::kResetStuck:
             break;
     }
     return value;
@@ -214,7 +236,7 @@ void read_latent(const std::string& text, FaultPlan& plan) {
     if (!may_be_latent(plan.latent)) {
         throw PlanError(std::string(get_name(plan.latent)) +
                         " is not a latent fault; valid: brake_stuck_open, brakes_stuck_open, brake_fade, "
-                        "sto_ignored, relay_stuck");
+                        "sto_ignored, relay_stuck, start_stuck, reset_stuck, reduced_speed, hold_to_run");
     }
     if (uses_joint(plan.latent) != (colon != std::string::npos)) {
         throw PlanError(std::string("latent=") + get_name(plan.latent) +

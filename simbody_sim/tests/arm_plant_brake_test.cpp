@@ -52,6 +52,18 @@ TEST(ArmPlantBrakeTest, BrakeSlipsJustBelowItsLoadAndHoldsJustAboveIt) {
     EXPECT_GT(below.positions()[1] - kBentPose[1], 0.1);
 }
 
+TEST(ArmPlantBrakeTest, CreepingBrakeYieldsToItsLoadWithItsSpeed) {
+    verifies("SWR-SIM-007", Technique::kFaultInjection);
+    ArmPlant sut(make_model_with_brake(2.0));
+    sut.reset(kBentPose);
+    ASSERT_EQ(sut.step({}, 500_ms), Status::kOk);
+    const double begin_rad = sut.positions()[1];
+    sut.faults().brake_creep_rad_s[1] = 0.02;
+
+    ASSERT_EQ(sut.step({}, 1_s), Status::kOk);
+    EXPECT_NEAR(sut.positions()[1] - begin_rad, 0.02, 0.001);
+}
+
 TEST(ArmPlantBrakeTest, FadedBrakeSlips) {
     verifies("SWR-SIM-007", Technique::kFaultInjection);
     ArmPlant sut(make_model_with_brake(2.0));

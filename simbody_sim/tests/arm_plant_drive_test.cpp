@@ -168,6 +168,55 @@ TEST_F(ArmPlantDriveTest, ButtonsAreShownAsPressed) {
     EXPECT_FALSE(sut_.sample().reset_button);
 }
 
+TEST_F(ArmPlantDriveTest, AStuckButtonStaysPushedOnceItIsPushed) {
+    verifies("SWR-SIM-012", Technique::kFaultInjection);
+    sut_.faults().start_stuck = true;
+    sut_.faults().reset_stuck = true;
+
+    sut_.set_buttons(false, false);
+    EXPECT_FALSE(sut_.sample().start_button || sut_.sample().reset_button);
+    sut_.set_buttons(true, false);
+    sut_.set_buttons(false, true);
+    sut_.set_buttons(false, false);
+    EXPECT_TRUE(sut_.sample().start_button && sut_.sample().reset_button);
+}
+
+TEST_F(ArmPlantDriveTest, EachChannelOfAStopIsShown) {
+    verifies("SWR-SIM-006", Technique::kInterface);
+
+    EXPECT_TRUE(sut_.sample().emergency_stop_closed[0] && sut_.sample().emergency_stop_closed[1]);
+    sut_.faults().emergency_stop_open = {true, false};
+    EXPECT_FALSE(sut_.sample().emergency_stop_closed[0]);
+    EXPECT_TRUE(sut_.sample().emergency_stop_closed[1]);
+    EXPECT_TRUE(sut_.sample().protective_stop_closed[0] && sut_.sample().protective_stop_closed[1]);
+    sut_.faults().protective_stop_open = {false, true};
+    EXPECT_TRUE(sut_.sample().protective_stop_closed[0]);
+    EXPECT_FALSE(sut_.sample().protective_stop_closed[1]);
+}
+
+TEST_F(ArmPlantDriveTest, EnablingDeviceHoldToRunButtonAndModeAreShown) {
+    verifies("SWR-SIM-006", Technique::kInterface);
+    using Contacts = std::array<bool, 3U>;
+    const std::array<bool, 2U> closed{true, true};
+    const std::array<bool, 2U> open{false, false};
+
+    EXPECT_EQ(sut_.sample().enabling_closed, closed);
+    EXPECT_FALSE(sut_.sample().enabling_squeezed);
+    EXPECT_TRUE(sut_.sample().run_button);
+    EXPECT_EQ(sut_.sample().mode_selected, (Contacts{true, false, false}));
+    sut_.faults().enabling_squeezed = true;
+    sut_.faults().run_released = true;
+    sut_.faults().mode = 2U;
+    EXPECT_EQ(sut_.sample().enabling_closed, open);
+    EXPECT_TRUE(sut_.sample().enabling_squeezed);
+    EXPECT_FALSE(sut_.sample().run_button);
+    EXPECT_EQ(sut_.sample().mode_selected, (Contacts{false, false, true}));
+    sut_.faults().enabling_squeezed = false;
+    sut_.faults().enabling_open = {true, true};
+    EXPECT_EQ(sut_.sample().enabling_closed, open);
+    EXPECT_FALSE(sut_.sample().enabling_squeezed);
+}
+
 TEST_F(ArmPlantDriveTest, AnOpenRelayTakesTorqueAndBrakeCurrentAndItsContactSaysSo) {
     verifies("SWR-SIM-006");
     hold_for(100_ms);

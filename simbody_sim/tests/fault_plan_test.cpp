@@ -51,7 +51,7 @@ TEST(FaultPlanTest, AFaultStaysUnlessItIsSaidOtherwise) {
 
 TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
     verifies("SWR-SIM-011", Technique::kEquivalenceClasses);
-    const std::array<std::string, 18U> texts{
+    const std::array<std::string, 25U> texts{
         "kind=none",
         "kind=none,seed=18446744073709551615",
         "kind=encoder_freeze,joint=1,channel=a,at=2",
@@ -68,6 +68,13 @@ TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
         "kind=none,latent=sto_ignored,seed=3",
         "kind=brake_stuck_open,joint=2,at=1",
         "kind=processor_stops,at=1",
+        "kind=emergency_stop,channel=both,at=1,duration=0.5",
+        "kind=protective_stop,channel=a,at=1",
+        "kind=brake_creep,joint=2,at=1,magnitude=0.02",
+        "kind=enabling_released,channel=b,at=1,latent=hold_to_run",
+        "kind=enabling_squeezed,at=1,latent=reduced_speed",
+        "kind=run_released,at=1",
+        "kind=power_loss,at=1,latent=reset_stuck",
         "kind=message_damaged,at=1,duration=once,magnitude=65535",
         "kind=controller_wrong,at=1,magnitude=1000000000"};
 
@@ -95,11 +102,13 @@ TEST(FaultPlanTest, MisspeltWordsAreRefusedWithTheNearestOne) {
 TEST(FaultPlanTest, EveryKindIsListedOnceAndNoOther) {
     verifies("SWR-SIM-015");
 
-    EXPECT_EQ(
-        list_fault_kinds(),
-        "none, encoder_freeze, encoder_bit_flip, encoder_bias, torque_runaway, power_loss, brake_fade, "
-        "controller_hang, message_lost, message_late, supervisor_hang, brake_stuck_open, "
-        "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops, message_damaged, controller_wrong");
+    EXPECT_EQ(list_fault_kinds(),
+              "none, encoder_freeze, encoder_bit_flip, encoder_bias, torque_runaway, power_loss, brake_fade, "
+              "controller_hang, message_lost, message_late, supervisor_hang, brake_stuck_open, "
+              "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops, emergency_stop, "
+              "protective_stop, brake_creep, enabling_released, enabling_squeezed, run_released, "
+              "reduced_speed, hold_to_run, start_stuck, "
+              "reset_stuck, message_damaged, controller_wrong");
 }
 
 TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {
@@ -138,7 +147,7 @@ TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {
 
 TEST(FaultPlanTest, BothSidesOfEveryLimit) {
     verifies("SWR-SIM-011", Technique::kBoundaryValues, Polarity::kViolation);
-    const std::array<std::pair<std::string, std::array<const char*, 2U>>, 17U> cases{{
+    const std::array<std::pair<std::string, std::array<const char*, 2U>>, 19U> cases{{
         // accepted, refused
         {"kind=encoder_freeze,channel=a,at=1,joint=", {"1", "0"}},
         {"kind=encoder_freeze,channel=a,at=1,joint=", {"7", "8"}},
@@ -157,6 +166,8 @@ TEST(FaultPlanTest, BothSidesOfEveryLimit) {
         {"kind=brake_fade,joint=1,at=1,magnitude=", {"1", "1.001"}},
         {"kind=brake_fade,joint=1,at=1,magnitude=", {"0.001", "0"}},
         {"kind=message_late,at=1,magnitude=", {"10", "10.1"}},
+        {"kind=brake_creep,joint=1,at=1,magnitude=", {"1", "1.001"}},
+        {"kind=brake_creep,joint=1,at=1,magnitude=", {"0.001", "0"}},
     }};
 
     for (const auto& [text, values] : cases) {
@@ -198,6 +209,7 @@ TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
     const char* const bias = "kind=encoder_bias,joint=4,channel=b,at=1,duration=0.5,magnitude=0.25";
     const char* const runaway = "kind=torque_runaway,joint=5,at=1,duration=0.5,magnitude=-0.5";
     const char* const fade = "kind=brake_fade,joint=6,at=1,duration=0.5,magnitude=0.75";
+    const char* const creep = "kind=brake_creep,joint=7,at=1,duration=0.5,magnitude=0.02";
     const char* const power = "kind=power_loss,at=1,duration=0.5";
 
     EXPECT_TRUE(apply(freeze, during).encoder_a[1].frozen);
@@ -208,7 +220,24 @@ TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
     EXPECT_EQ(apply(bias, during).encoder_a[3].bias_rad, 0.0);
     EXPECT_EQ(apply(runaway, during).torque_runaway[4], -0.5);
     EXPECT_EQ(apply(fade, during).brake_fade[5], 0.75);
+    EXPECT_EQ(apply(creep, during).brake_creep_rad_s[6], 0.02);
     EXPECT_TRUE(apply(power, during).power_lost);
+    using Channels = std::array<bool, 2U>;
+    const std::string stop = "kind=emergency_stop,at=1,duration=0.5,channel=";
+    EXPECT_EQ(apply((stop + "a").c_str(), during).emergency_stop_open, (Channels{true, false}));
+    EXPECT_EQ(apply((stop + "b").c_str(), during).emergency_stop_open, (Channels{false, true}));
+    EXPECT_EQ(apply((stop + "both").c_str(), during).emergency_stop_open, (Channels{true, true}));
+    EXPECT_EQ(apply("kind=protective_stop,channel=b,at=1", during).protective_stop_open,
+              (Channels{false, true}));
+    EXPECT_EQ(apply("kind=enabling_released,channel=a,at=1", during).enabling_open, (Channels{true, false}));
+    EXPECT_TRUE(apply("kind=enabling_squeezed,at=1", during).enabling_squeezed);
+    EXPECT_TRUE(apply("kind=run_released,at=1", during).run_released);
+    EXPECT_EQ(apply("kind=reduced_speed,at=1", before).mode, 0U);
+    EXPECT_EQ(apply("kind=reduced_speed,at=1", during).mode, 1U);
+    EXPECT_EQ(apply("kind=hold_to_run,at=1", during).mode, 2U);
+    EXPECT_EQ(apply("kind=power_loss,at=1,latent=hold_to_run", Instant{0}).mode, 2U) << "since power-up";
+    EXPECT_TRUE(apply("kind=start_stuck,at=1", during).start_stuck);
+    EXPECT_TRUE(apply("kind=reset_stuck,at=1", during).reset_stuck);
 
     for (const Instant now : {before, after}) {
         EXPECT_FALSE(apply(freeze, now, apply(freeze, during)).encoder_a[1].frozen);
@@ -217,7 +246,9 @@ TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
         EXPECT_EQ(apply(bias, now, apply(bias, during)).encoder_b[3].bias_rad, 0.0);
         EXPECT_FALSE(apply(runaway, now, apply(runaway, during)).torque_runaway[4]);
         EXPECT_EQ(apply(fade, now, apply(fade, during)).brake_fade[5], 0.0);
+        EXPECT_EQ(apply(creep, now, apply(creep, during)).brake_creep_rad_s[6], 0.0);
         EXPECT_FALSE(apply(power, now, apply(power, during)).power_lost);
+        EXPECT_EQ(apply((stop + "both").c_str(), now).emergency_stop_open, (Channels{false, false}));
     }
 }
 

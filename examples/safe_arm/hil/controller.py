@@ -25,7 +25,7 @@ def reply(_channel, data):
     arm, command = ControllerInput_e2e.decode(data), TorqueCommand_e2e()
     if not arm.torque_enable:
         hold, start_ns = arm.position_rad, max(arm.sent_at_ns, 500_000_000)
-    time_s = (arm.sent_at_ns - start_ns) / 1e9
+    time_s = (arm.sent_at_ns - start_ns) / 1e9 * (0.025 if arm.is_reduced else 1.0)
     place = min(max(bisect.bisect_right(MOTION, [time_s]), 1), len(MOTION) - 1)
     (t0, *q0), (t1, *q1) = MOTION[place - 1 : place + 1]
     share = min(max((time_s - t0) / (t1 - t0), 0.0), 1.0)

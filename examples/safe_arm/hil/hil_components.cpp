@@ -41,7 +41,8 @@ Status ControllerView::on_execute(ContextHandle context) noexcept {
     result.position_rad = state.read().position_rad;
     result.velocity_rad_s = state.read().velocity_rad_s;
     result.is_operational = stop.read().state == SafeState::kOperational;
-    result.torque_enable = stop.read().torque_enable;
+    result.torque_enable = stop.read().torque_enable && !stop.read().stop_requested;
+    result.is_reduced = stop.read().mode != OperatingMode::kAutomatic;
     out.write(result);
     return Status::kOk;
 }

@@ -22,6 +22,7 @@ TorqueCommand HilController::reply(const ControllerInput& input) noexcept {
     StopCommand stop{};
     stop.state = input.is_operational ? SafeState::kOperational : SafeState::kStandby;
     stop.torque_enable = input.torque_enable;
+    stop.mode = input.is_reduced ? OperatingMode::kReducedSpeed : OperatingMode::kAutomatic;
     state_.write(state);
     stop_.write(stop);
     controller_.state.take(state_.get_staged_sample(now));

@@ -50,20 +50,23 @@ struct ControllerInput {
     JointVector position_rad{};
     JointVector velocity_rad_s{};
     bool is_operational{false};
-    bool torque_enable{false};
+    bool torque_enable{false};  ///< and no stop is requested
+    bool is_reduced{false};     ///< any mode but automatic
 };
 
 }  // namespace safe_arm
 
 MAMORI_LCM_NAMES(mamori::safety::ArmInputs, encoder_a_counts, encoder_b_counts, measured_torque_nm,
-                 brake_closed, torque_enabled, relay_closed, power_good, start_button, reset_button)
+                 brake_closed, torque_enabled, relay_closed, power_good, start_button, reset_button,
+                 emergency_stop_closed, protective_stop_closed, enabling_closed, enabling_squeezed,
+                 run_button, mode_selected)
 MAMORI_LCM_NAMES(mamori::safety::ArmOutputs, torque_nm, torque_enable, brake_release, relay_close)
 MAMORI_LCM_FIELDS(safe_arm::DeviceFrame, answered_ns, inputs)
 MAMORI_LCM_FIELDS(safe_arm::SupervisorReport, state, reaction, first_fault, is_stopping, late_windows,
                   setpoint_rad)
 MAMORI_LCM_FIELDS(safe_arm::DriveFrame, frame, watchdog_services, outputs, report)
 MAMORI_LCM_FIELDS(safe_arm::ControllerInput, sent_at_ns, position_rad, velocity_rad_s, is_operational,
-                  torque_enable)
+                  torque_enable, is_reduced)
 MAMORI_LCM_NAMES(safe_arm::TorqueCommand, sequence, sent_at_ns, setpoint_rad, torque_nm)
 
 namespace safe_arm {

@@ -11,7 +11,8 @@ using mamori::Status;
 DeviceFrame HilPlant::answer() {
     const Instant now = get_now();
     mamori::sim::apply_plant_faults(fault_, now, plant_.faults());
-    plant_.set_buttons(is_start_pressed(now), false);
+    const Buttons buttons = calc_buttons(fault_, now);
+    plant_.set_buttons(buttons.start, buttons.reset);
     return {is_started_ ? now.ns - kFrame.ns : 0, plant_.sample()};
 }
 

@@ -2,6 +2,7 @@
 // Goal: counts become radians, feedback is passed on. Method: a process image filled here.
 #include "arm_reader.hpp"
 
+#include "arm_faults.hpp"
 #include "feed.hpp"
 #include "mamori/trace/verifies.hpp"
 
@@ -40,6 +41,26 @@ TEST_F(ArmReaderTest, CountsBecomeRadiansAndFeedbackIsPassedOn) {
     EXPECT_FALSE(reading.brakes_open);
     EXPECT_TRUE(reading.power_good);
     EXPECT_EQ(reading.measured_torque_nm[1], 4.5);
+}
+
+TEST_F(ArmReaderTest, ThePanelIsEvaluatedInEachFrame) {
+    verifies("SWR-SAF-030", Technique::kInterface);
+    ASSERT_EQ(sut_.configure(make_scale()), Status::kOk);
+    inputs_.start_button = true;
+    inputs_.enabling_closed.fill(true);
+    inputs_.mode_selected[1] = true;
+    const std::array<bool, 4U> pushed{false, true, true, false};
+    for (std::size_t i = 0U; i < pushed.size(); ++i) {
+        inputs_.reset_button = pushed[i];
+        ASSERT_EQ(sut_.on_execute({0, mamori::Instant{} + kPushMin * static_cast<std::int64_t>(i)}),
+                  Status::kOk);
+    }
+    const JointReading reading = take(sut_.reading);
+    EXPECT_EQ(reading.panel_faults, to_bit(ArmFault::kEmergencyStop) | to_bit(ArmFault::kProtectiveStop))
+        << "an image that was not filled";
+    EXPECT_TRUE(reading.reset_button);
+    EXPECT_EQ(reading.mode, OperatingMode::kReducedSpeed);
+    EXPECT_FALSE(reading.start_button);
 }
 
 TEST_F(ArmReaderTest, OneClosedBrakeIsNotOpenBrakes) {

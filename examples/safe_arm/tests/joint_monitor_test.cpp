@@ -419,6 +419,91 @@ TEST_F(JointMonitorTest, AnArmOnItsStopIsNoFault) {
     }
 }
 
+TEST_F(JointMonitorTest, EachJointHasItsReducedSpeedInAllModesButAutomatic) {
+    verifies("SWR-SAF-037", Technique::kBoundaryValues, Polarity::kViolation);
+    for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
+        for (const OperatingMode mode : {OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun}) {
+            reading_.mode = mode;
+            EXPECT_EQ(move(joint, kReducedSpeedRadS[joint] * kInside, 8).faults, 0U) << joint;
+            EXPECT_EQ(move(joint, kReducedSpeedRadS[joint] * kOutside, 8).faults,
+                      to_bit(ArmFault::kOverspeed));
+        }
+        reading_.mode = OperatingMode::kAutomatic;
+        EXPECT_EQ(move(joint, kReducedSpeedRadS[joint] * kOutside, 8).faults, 0U) << joint;
+    }
+}
+
+TEST_F(JointMonitorTest, AStopFromAutomaticMayBeginFasterThanTheReducedSpeed) {
+    verifies("SWR-SAF-037");
+    reading_.mode = OperatingMode::kReducedSpeed;
+    drive_.source = TorqueSource::kStopLoop;
+    for (int i = 0; i < 8; ++i) {
+        drive_.stop_setpoint_rad[1] = reading_.position_a_rad[1];
+        ASSERT_EQ(move(1U, 0.5, 1).faults, 0U) << i;
+    }
+}
+
+TEST_F(JointMonitorTest, AnArmThatMovesWithoutTorqueIsReported) {
+    verifies("SWR-SAF-034", Technique::kBoundaryValues, Polarity::kViolation);
+    drive_ = {};
+    reading_.torque_enabled = false;
+    reading_.brakes_closed = true;
+    reading_.brakes_open = false;
+    for (const double direction : {1.0, -1.0}) {
+        place(1U, 0.5);
+        ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
+        EXPECT_EQ(move(1U, 0.0, 200).faults, 0U);
+        place(1U, 0.5 + direction * kRestTravelRad * kInside);
+        move(1U, 0.0, 5);
+        EXPECT_EQ(step().faults & to_bit(ArmFault::kMovementAtRest), 0U);
+        place(1U, 0.5 + direction * kRestTravelRad * kOutside);
+        EXPECT_EQ(step().faults & to_bit(ArmFault::kMovementAtRest), to_bit(ArmFault::kMovementAtRest));
+    }
+}
+
+TEST_F(JointMonitorTest, ACreepThatIsSlowerThanStandstillIsReportedAtItsTravel) {
+    verifies("SWR-SAF-034", Technique::kFaultInjection, Polarity::kViolation);
+    step();
+    drive_ = {};
+    reading_.torque_enabled = false;
+    reading_.brakes_closed = true;
+    reading_.brakes_open = false;
+    move(3U, 0.0, 150);
+    const double begin_rad = reading_.position_a_rad[3];
+    int frames = 0;
+    while (move(3U, 0.9 * kStandstillRadS, 1).faults == 0U && frames < 1000) {
+        ++frames;
+    }
+    EXPECT_NEAR(reading_.position_a_rad[3] - begin_rad, kRestTravelRad, 2.0 * kStandstillRadS * kFrameS);
+}
+
+TEST_F(JointMonitorTest, TheSagWhileTheBrakesEngageAndAMovementUnderTorqueAreNoMovementAtRest) {
+    verifies("SWR-SAF-034");
+    move(1U, 0.5, 100);
+    drive_ = {};
+    reading_.torque_enabled = false;
+    reading_.brakes_closed = true;
+    reading_.brakes_open = false;
+    EXPECT_EQ(move(1U, 0.2, static_cast<int>(kBrakeFeedbackTime.ns / kFrame.ns)).faults, 0U);
+    EXPECT_EQ(move(1U, 0.0, 1000).faults, 0U);
+}
+
+TEST_F(JointMonitorTest, AResetBeginsTheRestAgain) {
+    verifies("SWR-SAF-034", Technique::kStateTransition);
+    drive_ = {};
+    reading_.torque_enabled = false;
+    reading_.brakes_closed = true;
+    reading_.brakes_open = false;
+    move(1U, 0.0, 150);
+    EXPECT_EQ(move(1U, 0.2, 50).faults, to_bit(ArmFault::kMovementAtRest));
+    EXPECT_EQ(move(1U, 0.0, 50).faults, to_bit(ArmFault::kMovementAtRest)) << "it does not go by itself";
+
+    reading_.reset_button = true;
+    EXPECT_EQ(step().faults, 0U);
+    reading_.reset_button = false;
+    EXPECT_EQ(move(1U, 0.0, 200).faults, 0U);
+}
+
 TEST_F(JointMonitorTest, ABrakeTestIsJudgedByNoSetpoint) {
     verifies("SWR-SAF-029", Technique::kEquivalenceClasses);
     drive_.source = TorqueSource::kBrakeTest;

@@ -41,6 +41,16 @@ TEST_F(ModelCheckTest, MachineSlowerThanItsLimitIsRefused) {
     expect_refused("J2", "speed_limit_rad_s");
 }
 
+TEST_F(ModelCheckTest, MachineWhoseFlangeIsTooFastAtReducedSpeedIsRefused) {
+    verifies("SWR-SAF-037", Technique::kBoundaryValues, Polarity::kViolation);
+    // 0.24985 m/s: the rest allows 0.5 mm for the four joints before the last links.
+    model_.joints[6].offset_m[2] += 0.0002;
+    EXPECT_EQ(check_model(model_), "");
+
+    model_.joints[6].offset_m[2] += 0.0003;
+    expect_refused("J7", "speed of the flange");
+}
+
 TEST_F(ModelCheckTest, MachineFasterThanThePlausibleStepIsRefused) {
     verifies("SWR-SAF-003", Technique::kBoundaryValues, Polarity::kViolation);
     model_.joints[6].speed_limit_rad_s = kMaxStepRad[6] / kFrameS;

@@ -37,7 +37,9 @@ class MotionControllerTest : public ::testing::Test {
     }
     TorqueCommand step(SafeState state, bool torque_enable) {
         feed(sut_.state, measured_);
-        feed(sut_.stop, StopCommand{state, torque_enable, torque_enable});
+        StopCommand stop{state, torque_enable, torque_enable};
+        stop.mode = mode_;
+        feed(sut_.stop, stop);
         EXPECT_EQ(sut_.on_execute({1, now_}), Status::kOk);
         now_ = now_ + kFrame;
         const TorqueCommand command = take(sut_.command);
@@ -57,6 +59,7 @@ class MotionControllerTest : public ::testing::Test {
     MotionController sut_;
     JointState measured_{};
     Instant now_{};
+    OperatingMode mode_{OperatingMode::kAutomatic};
 };
 
 TEST_F(MotionControllerTest, EachMessageCarriesItsNumberAndInstant) {
@@ -67,6 +70,27 @@ TEST_F(MotionControllerTest, EachMessageCarriesItsNumberAndInstant) {
     EXPECT_EQ(second.sequence, first.sequence + 1U);
     EXPECT_EQ(first.sent_at_ns, 0);
     EXPECT_EQ(second.sent_at_ns, kFrame.ns);
+}
+
+TEST_F(MotionControllerTest, DuringAStopTheSetpointIsTheMeasuredPositionAndThePathEnds) {
+    verifies("SWR-SAF-012", Technique::kStateTransition);
+    now_ = kBegin;
+    play(10);
+    measured_.position_rad.fill(0.3);
+    feed(sut_.state, measured_);
+    feed(sut_.stop, StopCommand{SafeState::kStandstillHold, true, true, true});
+    ASSERT_EQ(sut_.on_execute({1, now_}), Status::kOk);
+    EXPECT_EQ(take(sut_.command).setpoint_rad, measured_.position_rad);
+
+    EXPECT_EQ(play(10).setpoint_rad, measured_.position_rad) << "it is not at the beginning of the path";
+}
+
+TEST_F(MotionControllerTest, InASlowModeThePathIsTheSameAndSlower) {
+    verifies("SWR-SAF-012", Technique::kEquivalenceClasses);
+    now_ = kBegin;
+    mode_ = OperatingMode::kReducedSpeed;
+    // The path moves by 0.5 rad per second.
+    EXPECT_NEAR(play(2000).setpoint_rad[3], 0.5 * 2.0 * kReducedPathRate, 1.0e-3);
 }
 
 TEST_F(MotionControllerTest, WithoutTorqueTheSetpointIsTheMeasuredPosition) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -58,6 +59,28 @@ class RunTest : public ::testing::Test {
         EXPECT_NE(messages_.find(part), std::string::npos) << messages_;
         EXPECT_EQ(std::count(messages_.begin(), messages_.end(), '\n'), 1) << messages_;
         EXPECT_FALSE(fs::exists(folder_ / "out" / "run.json"));
+    }
+
+    /// Upper bound of the true speed of the flange in operation: each joint with its longest lever [m/s].
+    double read_flange_speed() const {
+        const std::array<double, 7U> levers_m{1.03, 1.03, 0.58, 0.58, 0.083, 0.08, 0.0};
+        std::ifstream series{folder_ / "out" / "series.csv"};
+        double fastest = 0.0;
+        std::string line;
+        while (std::getline(series, line)) {
+            std::istringstream cells{line};
+            std::string cell;
+            double sum = 0.0;
+            for (std::size_t column = 0U; std::getline(cells, cell, ','); ++column) {
+                // The time and the positions come first.
+                const bool is_speed =
+                    column >= 8U && column < 15U && cell != "qd" + std::to_string(column - 7U);
+                sum += is_speed ? levers_m[column - 8U] * std::abs(std::stod(cell)) : 0.0;
+            }
+            fastest = line.find(",Operational,") == std::string::npos ? fastest : std::max(fastest, sum);
+        }
+        EXPECT_GT(fastest, 0.0);
+        return fastest;
     }
 
     std::string recorder_path() const { return (folder_ / "run.rec").string(); }
@@ -113,6 +136,63 @@ TEST_F(RunTest, FaultAndItsReactionAreRecorded) {
     EXPECT_EQ(summary["reaction"], "Sto");
     EXPECT_EQ(summary["final_state"], "Safe");
     EXPECT_FALSE(summary["standstill_at_s"].is_null());
+}
+
+TEST_F(RunTest, ReleasedEmergencyStopNeedsResetAndStart) {
+    verifies("SWR-SAF-032", Technique::kStateTransition);
+    const std::string pushed = "--fault kind=emergency_stop,channel=both,at=0.3,duration=0.5 --frames ";
+    // The operator releases reset 1.05 s, and start 1.45 s after the demand.
+    for (const auto& [frames, state] :
+         {std::pair{"1849", "Safe"}, std::pair{"2249", "Standby"}, std::pair{"2252", "Operational"}}) {
+        ASSERT_EQ(run(arguments(pushed + frames)), 0) << messages_;
+        EXPECT_EQ(read_summary()["final_state"], state) << frames;
+        EXPECT_EQ(read_summary()["reaction"], "Ss1");
+    }
+}
+
+TEST_F(RunTest, ClosedProtectiveStopNeedsStartOnlyAndTheArmNeverLosesItsTorque) {
+    verifies("SWR-SAF-033", Technique::kStateTransition);
+    const std::string opened = "--fault kind=protective_stop,channel=both,at=0.3,duration=0.5 --frames ";
+    // The operator releases start 1.45 s after the demand.
+    for (const auto& [frames, state] : {std::pair{"2249", "StandstillHold"}, std::pair{"2253", "Operational"},
+                                        std::pair{"3000", "Operational"}}) {
+        ASSERT_EQ(run(arguments(opened + frames)), 0) << messages_;
+        const nlohmann::json summary = read_summary();
+        EXPECT_EQ(summary["final_state"], state) << frames;
+        EXPECT_EQ(summary["reaction"], "Ss2");
+        EXPECT_LT(summary["physics"]["hold_drift_rad"], 0.002);
+    }
+    std::ifstream events{folder_ / "out" / "events.csv"};
+    const std::string lines{std::istreambuf_iterator<char>{events}, {}};
+    EXPECT_EQ(lines.find("Safe"), std::string::npos) << lines;
+}
+
+TEST_F(RunTest, BrakeThatCreepsInStandbyIsFoundWithinFiveMilliradiansAndTheStartRefused) {
+    verifies("SWR-SAF-034", Technique::kFaultInjection, Polarity::kViolation);
+    const std::string creep = "--fault kind=brake_creep,joint=2,magnitude=0.02,at=0.3 --frames ";
+    ASSERT_EQ(run(arguments(creep + "799")), 0) << messages_;
+    EXPECT_EQ(read_summary()["final_state"], "Standby");
+    ASSERT_EQ(run(arguments(creep + "2500")), 0) << messages_;
+
+    const nlohmann::json summary = read_summary();
+    EXPECT_EQ(summary["final_state"], "Safe");
+    EXPECT_EQ(summary["detected_fault"], "MovementAtRest");
+    EXPECT_TRUE(summary["operational_at_s"].is_null());
+    const double time_s = summary["detected_at_s"].get<double>() - 0.8;
+    EXPECT_GT(0.02 * time_s, kRestTravelRad * 0.9);
+    EXPECT_LT(0.02 * time_s, kRestTravelRad * 1.1);
+}
+
+TEST_F(RunTest, SlowModesKeepTheFlangeBelow250MillimetresPerSecond) {
+    verifies("SWR-SAF-037");
+    for (const char* const mode : {"reduced_speed", "hold_to_run"}) {
+        ASSERT_EQ(run(arguments(std::string{"--frames 4000 --fault kind=none,latent="} + mode)), 0)
+            << messages_;
+        const nlohmann::json summary = read_summary();
+        EXPECT_EQ(summary["final_state"], "Operational") << mode;
+        EXPECT_LT(summary["physics"]["max_tracking_error_rad"], 0.02);
+        EXPECT_LT(read_flange_speed(), kFlangeSpeedMax) << mode;
+    }
 }
 
 TEST_F(RunTest, PathThatLeavesTheRangeIsStoppedInsideTheMechanicalRange) {

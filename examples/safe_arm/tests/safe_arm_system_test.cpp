@@ -67,7 +67,7 @@ TEST(ArmReactionsTest, EachFaultAloneLeadsToItsRow) {
 
         const mamori::safety::ReactionDemand demand = calc_reaction(executive.get_view().reactions, faults);
         EXPECT_EQ(demand.fault, i);
-        EXPECT_GE(demand.reaction, mamori::safety::Reaction::kSs1) << kArmFaultNames[i];
+        EXPECT_GE(demand.reaction, mamori::safety::Reaction::kSs2) << kArmFaultNames[i];
         EXPECT_EQ(demand.within, 2_ms);
     }
 }

@@ -253,6 +253,135 @@ TEST_F(SafetySupervisorTest, SilentControllerIsAFaultAndLeavesTheWatchdogServed)
     EXPECT_EQ(watchdog_.services, before + 1);
 }
 
+TEST_F(SafetySupervisorTest, AnEmergencyStopStopsTheArmAndAResetNeedsItsRelease) {
+    verifies("SWR-SAF-030", Technique::kStateTransition);
+    operate();
+    reading_.panel_faults = to_bit(ArmFault::kEmergencyStop);
+    EXPECT_EQ(step().state, SafeState::kProtectiveStopSs1);
+    step();  // told to close
+    reading_.brakes_closed = true;
+    reading_.torque_enabled = false;
+    step();
+    ASSERT_EQ(step().state, SafeState::kSafe);
+    reading_.reset_button = true;
+    EXPECT_EQ(step().state, SafeState::kSafe) << "it is still pushed";
+    reading_.reset_button = false;
+    reading_.panel_faults = 0U;
+    EXPECT_EQ(step().state, SafeState::kSafe) << "its release starts nothing";
+
+    reading_.reset_button = true;
+    EXPECT_EQ(step().state, SafeState::kSelfTest);
+}
+
+TEST_F(SafetySupervisorTest, AFailedSwitchRefusesTheStart) {
+    verifies("SWR-SAF-031", Technique::kFaultInjection, Polarity::kViolation);
+    step_until(SafeState::kStandby, 400);
+    reading_.panel_faults = to_bit(ArmFault::kSwitchDiscrepancy);
+    step();
+
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kSafe);
+}
+
+TEST_F(SafetySupervisorTest, AProtectiveStopHoldsTheArmUntilItIsClosedAndStartIsPushed) {
+    verifies("SWR-SAF-033", Technique::kStateTransition);
+    operate();
+    reading_.panel_faults = to_bit(ArmFault::kProtectiveStop);
+    EXPECT_EQ(step().state, SafeState::kProtectiveStopSs2);
+    const StopCommand held = step();
+    EXPECT_EQ(held.state, SafeState::kStandstillHold);
+    EXPECT_TRUE(held.torque_enable && held.brake_release);
+    EXPECT_EQ(held.torque_source, TorqueSource::kStopLoop);
+    reading_.panel_faults = 0U;
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_EQ(step().state, SafeState::kStandstillHold) << "its end starts nothing";
+    }
+
+    reading_.start_button = true;
+    const StopCommand between = step();
+    reading_.start_button = false;
+    EXPECT_EQ(between.state, SafeState::kStandby);
+    EXPECT_TRUE(between.torque_enable);
+    EXPECT_EQ(between.torque_source, TorqueSource::kStopLoop) << "the gate still holds the arm";
+    const StopCommand started = step();
+    EXPECT_EQ(started.state, SafeState::kOperational);
+    EXPECT_EQ(started.torque_source, TorqueSource::kController);
+    EXPECT_EQ(step().state, SafeState::kOperational);
+}
+
+TEST_F(SafetySupervisorTest, ALostEnableHoldsTheArmUntilStartAndNeedsNoResetInStandby) {
+    verifies("SWR-SAF-035", Technique::kStateTransition);
+    step_until(SafeState::kStandby, 400);
+    reading_.mode = OperatingMode::kHoldToRun;
+    reading_.panel_faults = to_bit(ArmFault::kEnableLost);
+    EXPECT_EQ(step().state, SafeState::kStandby);
+    reading_.panel_faults = 0U;
+    step();
+    EXPECT_EQ(operate().mode, OperatingMode::kHoldToRun);
+    reading_.panel_faults = to_bit(ArmFault::kEnableLost);
+    step();
+    EXPECT_EQ(step().state, SafeState::kStandstillHold);
+    reading_.panel_faults = 0U;
+    EXPECT_EQ(step().state, SafeState::kStandstillHold);
+
+    reading_.start_button = true;
+    step();
+    reading_.start_button = false;
+    EXPECT_EQ(step().state, SafeState::kOperational);
+}
+
+TEST_F(SafetySupervisorTest, AChangeOfTheModeNeedsResetAndStart) {
+    verifies("SWR-SAF-036", Technique::kStateTransition, Polarity::kViolation);
+    step_until(SafeState::kStandby, 400);
+    reading_.panel_faults = to_bit(ArmFault::kModeSelector);
+    EXPECT_EQ(step().state, SafeState::kSafe);
+    reading_.panel_faults = 0U;
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kSafe);
+    reading_.reset_button = true;
+    EXPECT_EQ(step().state, SafeState::kSelfTest);
+}
+
+TEST_F(SafetySupervisorTest, StartDoesNothingWhileTheProtectiveStopIsOpen) {
+    verifies("SWR-SAF-033", Technique::kErrorGuessing, Polarity::kViolation);
+    step_until(SafeState::kStandby, 400);
+    reading_.panel_faults = to_bit(ArmFault::kProtectiveStop);
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kStandby) << "and needs no reset";
+    reading_.panel_faults = 0U;
+    reading_.start_button = false;
+    EXPECT_EQ(step().state, SafeState::kStandby);
+    operate();
+    reading_.panel_faults = to_bit(ArmFault::kProtectiveStop);
+    step_until(SafeState::kStandstillHold, 3);
+
+    for (int i = 0; i < 10; ++i) {
+        reading_.start_button = i % 2 == 0;
+        reading_.reset_button = i % 3 == 0;
+        ASSERT_EQ(step().state, SafeState::kStandstillHold) << i;
+    }
+}
+
+TEST_F(SafetySupervisorTest, AnEmergencyStopDuringAHoldNeedsItsReset) {
+    verifies("SWR-SAF-033", Technique::kStateTransition, Polarity::kViolation);
+    operate();
+    reading_.panel_faults = to_bit(ArmFault::kProtectiveStop);
+    step_until(SafeState::kStandstillHold, 3);
+    reading_.panel_faults |= to_bit(ArmFault::kEmergencyStop);
+    EXPECT_EQ(step().state, SafeState::kProtectiveStopSs1);
+    step();
+    reading_.brakes_closed = true;
+    reading_.torque_enabled = false;
+    step_until(SafeState::kSafe, 3);
+    reading_.panel_faults = 0U;
+    step();
+
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kSafe) << "start is no reset there";
+    reading_.start_button = false;
+    EXPECT_EQ(step().state, SafeState::kSafe);
+}
+
 TEST_F(SafetySupervisorTest, ReaderThatFallsSilentStopsTorqueInItsFrame) {
     verifies("SWR-SAF-019", Technique::kFaultInjection, Polarity::kViolation);
     operate();

@@ -55,7 +55,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                              "torque_runaway_wrist, message_lost, message_late, message_lost_once, message_damaged, message_damaged_once, "
                              "controller_drops_arm, controller_swings_arm, power_loss, supervisor_hang, "
                              "brake_stuck_open, brakes_stuck_open, sto_ignored, relay_stuck, start_with_weak_brake, start_with_sto_ignored, "
-                             "start_with_relay_stuck, processor_stops, processor_stops_relay_stuck, processor_stops_sto_ignored")  # fmt: skip
+                             "start_with_relay_stuck, processor_stops, processor_stops_relay_stuck, processor_stops_sto_ignored, emergency_stop, "
+                             "emergency_stop_channel_a, emergency_stop_channel_b, emergency_stop_reset_stuck, protective_stop, "
+                             "protective_stop_channel_a, protective_stop_channel_b, protective_stop_start_stuck, start_with_start_stuck, "
+                             "start_with_creeping_brake, reduced_speed, hold_to_run, enabling_released, "
+                             "enabling_released_channel_a, enabling_squeezed, run_released, enabling_released_in_automatic, mode_changed")  # fmt: skip
     parser.add_argument("--instants", type=at_least_one, metavar="N",
                         help="inject each fault at the first N instants (at least 1) of the campaign plan; default: all instants")  # fmt: skip
     add_jobs(parser)

@@ -37,10 +37,14 @@ FAULT_HELP = """KIND[,key=value...]; default: none
   message_late      magnitude=SECONDS, above 0 to 10
   message_damaged   magnitude=BIT of each message, 0 to 65535
   controller_wrong  magnitude=NUMBER of a wrong controller, 0 to 1e9
-  message_lost, power_loss, controller_hang, supervisor_hang, processor_stops, none
+  brake_creep       joint magnitude=RAD/S, above 0 to 1
+  emergency_stop, protective_stop, enabling_released: channel
+  message_lost, power_loss, controller_hang, supervisor_hang, processor_stops,
+  enabling_squeezed, run_released, reduced_speed, hold_to_run, none
 Each kind except none takes at=SECONDS of the motion, before its end, and duration=SECONDS; default: to the end.
 A second fault that shows nothing by itself: latent=brake_stuck_open:JOINT,
-brake_fade:JOINT, brakes_stuck_open, sto_ignored or relay_stuck"""
+brake_fade:JOINT, brakes_stuck_open, sto_ignored, relay_stuck,
+start_stuck, reset_stuck, or since power-up the mode reduced_speed or hold_to_run"""
 KEYS = ("joint", "channel", "magnitude", "at", "duration", "latent")
 REJECTED_INPUT = 2
 """Exit status of the program for rejected input."""

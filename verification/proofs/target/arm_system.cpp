@@ -120,6 +120,9 @@ void ObedientDevices::sample(std::uint64_t, Instant now) noexcept {
     inputs.torque_enabled = outputs.torque_enable && outputs.relay_close;
     inputs.relay_closed = outputs.relay_close;
     inputs.power_good = true;
+    inputs.emergency_stop_closed.fill(true);
+    inputs.protective_stop_closed.fill(true);
+    inputs.mode_selected[0] = true;
     inputs.start_button = is_pushed(kFirstStart, now) || is_pushed(kSecondStart, now);
     inputs.reset_button = is_pushed(kReset, now);
     const Duration controller_time = now < kControllerHangs ? kControllerTime : virtual_time::kNever;

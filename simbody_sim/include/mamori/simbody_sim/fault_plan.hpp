@@ -32,13 +32,23 @@ enum class FaultKind : std::uint8_t {
     kMessageLost,
     kMessageLate,  ///< magnitude: delay in seconds, above 0 up to 10
     kSupervisorHang,
-    kBrakeStuckOpen,   ///< one brake does not close
-    kBrakesStuckOpen,  ///< no brake closes
-    kStoIgnored,       ///< the drives ignore safe torque off
-    kRelayStuck,       ///< the second switch-off path does not open
-    kProcessorStops,   ///< the outputs keep their last values, and nothing services the watchdog
-    kMessageDamaged,   ///< magnitude: bit of each message that is inverted, 0 .. 65535
-    kControllerWrong,  ///< magnitude: number of a wrong controller, an integer, 0 .. kWrongControllerMax
+    kBrakeStuckOpen,    ///< one brake does not close
+    kBrakesStuckOpen,   ///< no brake closes
+    kStoIgnored,        ///< the drives ignore safe torque off
+    kRelayStuck,        ///< the second switch-off path does not open
+    kProcessorStops,    ///< the outputs keep their last values, and nothing services the watchdog
+    kEmergencyStop,     ///< is pushed; with one channel, the contact of the other one does not open
+    kProtectiveStop,    ///< is opened; with one channel, the contact of the other one does not open
+    kBrakeCreep,        ///< a closed brake yields to its load; magnitude: rad/s, above 0 up to 1
+    kEnablingReleased,  ///< the enabling device; with one channel, as kEmergencyStop
+    kEnablingSqueezed,  ///< the enabling device, to its third position
+    kRunReleased,       ///< the hold-to-run button
+    kReducedSpeed,      ///< the mode selector is turned from automatic to it; latent: since power-up
+    kHoldToRun,         ///< likewise
+    kStartStuck,        ///< the start button stays pushed once it is pushed
+    kResetStuck,        ///< the reset button stays pushed once it is pushed
+    kMessageDamaged,    ///< magnitude: bit of each message that is inverted, 0 .. 65535
+    kControllerWrong,   ///< magnitude: number of a wrong controller, an integer, 0 .. kWrongControllerMax
 };
 
 enum class FaultChannel : std::uint8_t { kA, kB, kBoth };

@@ -43,10 +43,21 @@ KINDS: Mapping[str, Uses] = {
     "sto_ignored": Uses(),
     "relay_stuck": Uses(),
     "processor_stops": Uses(),
+    "emergency_stop": Uses(channel=True),
+    "protective_stop": Uses(channel=True),
+    "brake_creep": Uses(joint=True, magnitude=True),
+    "enabling_released": Uses(channel=True),
+    "enabling_squeezed": Uses(),
+    "run_released": Uses(),
+    "reduced_speed": Uses(),
+    "hold_to_run": Uses(),
+    "start_stuck": Uses(),
+    "reset_stuck": Uses(),
     "message_damaged": Uses(magnitude=True),
     "controller_wrong": Uses(magnitude=True),
 }
-LATENT_KINDS = ("brake_stuck_open", "brakes_stuck_open", "brake_fade", "sto_ignored", "relay_stuck")
+LATENT_KINDS = ("brake_stuck_open", "brakes_stuck_open", "brake_fade", "sto_ignored", "relay_stuck", "start_stuck", "reset_stuck",
+                "reduced_speed", "hold_to_run")  # fmt: skip
 
 _KEYS = frozenset({"kind", "joint", "channel", "magnitude", "duration_s", "min_speed_rad_s", "latent"})
 
@@ -57,8 +68,8 @@ class FaultSpec:
 
     `min_speed_rad_s`: the injection waits until that joint reaches this speed; None: no waiting.
     `duration_s`: None means until the end of the run.
-    `latent`: a second fault that shows nothing by itself, as `kind` or `kind:joint`; empty: none. Present since the start of the motion, or,
-    with the kind `none`, since power-up.
+    `latent`: a second fault, or an operating mode, that shows nothing by itself, as `kind` or `kind:joint`; empty: none. A mode is present
+    since power-up; a fault since the start of the motion, or, with the kind `none`, since power-up.
     """
 
     kind: str

@@ -15,4 +15,5 @@ STOPS = frozenset({"Ss2", "Ss1", "Sto"})
 DETECTED_FAULTS = (NOTHING, "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck", "FollowingError", "Overspeed",
                    "PositionLimit", "TorqueDeviation", "ControllerSilent", "CommandStale", "PowerLost", "BrakeFault",
                    "SelfTestFailed", "MeasurementStale", "ReactionLate", "BrakeTestOld", "StopNotFollowed",
+                   "EmergencyStop", "SwitchDiscrepancy", "ProtectiveStop", "MovementAtRest", "EnableLost", "EnablingSqueezed", "ModeSelector",
                    "SupervisorSilent", "WatchdogExpired")  # fmt: skip

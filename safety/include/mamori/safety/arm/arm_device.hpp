@@ -37,10 +37,23 @@ struct ArmInputs {
     bool relay_closed{false};
     /// Drive supply voltage is inside its range.
     bool power_good{false};
-    /// Operator asks for operation (deliberate rising edge).
+    /// Operator requests operation. True while the button is pushed.
     bool start_button{false};
-    /// Operator acknowledges a latched fault (deliberate rising edge).
+    /// Operator acknowledges a latched fault. True while the button is pushed.
     bool reset_button{false};
+    /// Both channels of the emergency stop: true = circuit closed. An open one demands the stop, and a broken
+    /// wire is an open one.
+    std::array<bool, 2U> emergency_stop_closed{};
+    /// Both channels of the protective stop, for example of a guard door: true = circuit closed.
+    std::array<bool, 2U> protective_stop_closed{};
+    /// Both channels of the enabling device: true = held in its middle position.
+    std::array<bool, 2U> enabling_closed{};
+    /// Contact of the third position of the enabling device: true = squeezed.
+    bool enabling_squeezed{false};
+    /// Hold-to-run button: true while it is held.
+    bool run_button{false};
+    /// Contacts of the mode selector, exactly one of which is closed: automatic, reduced speed, hold-to-run.
+    std::array<bool, 3U> mode_selected{};
 };
 
 /// Written by the safety partition at the end of each frame. Default: the safe state.
@@ -59,7 +72,8 @@ struct ArmOutputs {
 }  // namespace mamori::safety
 
 MAMORI_FIELDS(mamori::safety::ArmInputs, encoder_a_counts, encoder_b_counts, measured_torque_nm, brake_closed,
-              torque_enabled, relay_closed, power_good, start_button, reset_button)
+              torque_enabled, relay_closed, power_good, start_button, reset_button, emergency_stop_closed,
+              protective_stop_closed, enabling_closed, enabling_squeezed, run_button, mode_selected)
 MAMORI_FIELDS(mamori::safety::ArmOutputs, torque_nm, torque_enable, brake_release, relay_close)
 
 #endif  // MAMORI_SAFETY_ARM_ARM_DEVICE_HPP

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "operator_panel.hpp"
+
+#include "arm_faults.hpp"
+
+namespace safe_arm {
+namespace {
+
+/// One frame of a switch. @return its faults.
+std::uint32_t evaluate(TwoChannelSwitch& channels, const std::array<bool, 2U>& is_closed, ArmFault demand,
+                       bool is_reset, mamori::Instant now) noexcept {
+    const bool is_permitted = channels.step(is_closed, now);
+    if (is_reset) {
+        channels.acknowledge();
+    }
+    return (is_permitted ? 0U : to_bit(demand)) |
+           (channels.has_failed() ? to_bit(ArmFault::kSwitchDiscrepancy) : 0U);
+}
+
+}  // namespace
+
+using mamori::Duration;
+using mamori::Instant;
+using mamori::safety::ArmInputs;
+using mamori::safety::Discrepancy;
+
+bool TwoChannelSwitch::step(const std::array<bool, 2U>& is_closed, Instant now) noexcept {
+    const bool had_failed = has_failed();
+    const Discrepancy result = timer_.step(is_closed[0] != is_closed[1], now);
+    if (!had_failed && result == Discrepancy::kLatched) {
+        has_opened_ = false;
+    }
+    has_opened_ = has_opened_ || (!is_closed[0] && !is_closed[1]);
+    return is_closed[0] && is_closed[1];
+}
+
+void TwoChannelSwitch::acknowledge() noexcept {
+    if (has_opened_) {
+        static_cast<void>(timer_.acknowledge());  // channels that differ keep it
+    }
+}
+
+bool PushButton::step(bool is_pushed, Instant now) noexcept {
+    const Duration length = now - pushed_at_;
+    const bool is_deliberate =
+        was_pushed_ && !is_pushed && has_begun_ && length >= kPushMin && length <= kPushMax;
+    if (is_pushed && !was_pushed_) {
+        pushed_at_ = now;
+        has_begun_ = true;
+    }
+    was_pushed_ = is_pushed;
+    return is_deliberate;
+}
+
+bool ModeSelector::step(const std::array<bool, 3U>& is_selected, Instant now) noexcept {
+    std::size_t count = 0U;
+    OperatingMode shown = mode_;
+    for (std::size_t i = 0U; i < is_selected.size(); ++i) {
+        count += is_selected[i] ? 1U : 0U;
+        shown = is_selected[i] ? static_cast<OperatingMode>(i) : shown;
+    }
+    const bool is_shown = count == 1U;
+    const bool has_failed = timer_.step(!is_shown, now) == Discrepancy::kLatched;
+    const bool has_changed = is_shown && is_known_ && shown != mode_;
+    mode_ = is_shown ? shown : mode_;
+    is_known_ = is_known_ || is_shown;
+    return has_changed || has_failed;
+}
+
+PanelState OperatorPanel::step(const ArmInputs& inputs, Instant now) noexcept {
+    PanelState result{};
+    result.start = start_.step(inputs.start_button, now);
+    result.reset = reset_.step(inputs.reset_button, now);
+    result.faults |=
+        evaluate(emergency_stop_, inputs.emergency_stop_closed, ArmFault::kEmergencyStop, result.reset, now);
+    result.faults |= evaluate(protective_stop_, inputs.protective_stop_closed, ArmFault::kProtectiveStop,
+                              result.reset, now);
+    const std::uint32_t enabling =
+        evaluate(enabling_, inputs.enabling_closed, ArmFault::kEnableLost, result.reset, now);
+    if (result.reset) {
+        selector_.acknowledge();  // a mode that is still not shown is a fault again after its time
+    }
+    const bool has_mode_fault = selector_.step(inputs.mode_selected, now);
+    result.mode = selector_.get_mode();
+    result.faults |= has_mode_fault ? to_bit(ArmFault::kModeSelector) : 0U;
+    if (result.mode == OperatingMode::kAutomatic) {
+        result.faults |= enabling & ~to_bit(ArmFault::kEnableLost);
+        return result;
+    }
+    const bool is_run_released = result.mode == OperatingMode::kHoldToRun && !inputs.run_button;
+    result.faults |= enabling | (is_run_released ? to_bit(ArmFault::kEnableLost) : 0U) |
+                     (inputs.enabling_squeezed ? to_bit(ArmFault::kEnablingSqueezed) : 0U);
+    return result;
+}
+
+}  // namespace safe_arm
