@@ -6,8 +6,11 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/capability.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -307,6 +310,30 @@ TEST_F(PartitionProcessTest, ItHasNoPrivilegeThatCouldDelayAWindow) {
     ASSERT_GT(fields.size(), 39U);
     EXPECT_EQ(fields[2U], fields[3U]) << "its group is its session";
     EXPECT_NE(fields[3U], std::to_string(::getsid(0)));
+}
+
+TEST_F(PartitionProcessTest, ItDoesNotInheritTheCapabilitiesOfTheSafetyProcess) {
+    verifies("SWR-PRT-016", Technique::kErrorGuessing, Polarity::kViolation);
+    if (::geteuid() != 0U) {
+        GTEST_SKIP() << "verdict=no-privilege: only root has capabilities that a program could inherit";
+    }
+    EXPECT_EQ(run_in_process([this] {
+                  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+                  std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};
+                  ASSERT_EQ(::syscall(SYS_capget, &header, sets.data()), 0);
+                  for (__user_cap_data_struct& set : sets) {
+                      set.inheritable = set.permitted;
+                  }
+                  ASSERT_EQ(::syscall(SYS_capset, &header, sets.data()), 0);
+                  ASSERT_EQ(::prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_RAISE, CAP_KILL, 0UL, 0UL), 0);
+                  ASSERT_EQ(start("cat /proc/self/status >&3"), Status::kOk);
+                  EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+              }),
+              0);
+    const std::string facts = line_.read_all();
+    for (const char* const set : {"CapInh:", "CapPrm:", "CapEff:", "CapBnd:", "CapAmb:"}) {
+        EXPECT_EQ(find(facts, set), "0000000000000000") << set;
+    }
 }
 
 TEST_F(PartitionProcessTest, ItDoesNotInheritAFixedPriority) {

@@ -75,7 +75,9 @@ void expect_no_start(const Refusal& refusal, PartitionError error, uid_t user) {
 
 TEST(RefusedCallsTest, APartitionThatCannotBeRestrictedIsNotStarted) {
     verifies("SWR-PRT-015", Technique::kFaultInjection, Polarity::kViolation);
-    const std::array<Refusal, 13U> refusals{{{SYS_setsid},
+    const std::array<Refusal, 15U> refusals{{{SYS_setsid},
+                                             {SYS_capget},
+                                             {SYS_capset},
                                              {SYS_getppid},
                                              {SYS_sched_setscheduler},
                                              {SYS_setpriority},
