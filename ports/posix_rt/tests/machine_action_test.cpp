@@ -9,16 +9,14 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/ports/posix_rt/crash_note.hpp"
 #include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/machine_records.hpp"
 #include "support/patient_options.hpp"
 
 namespace mamori::ports::posix_rt {
@@ -277,18 +275,11 @@ TEST_F(MachineActionTest, RecorderNamesComponentAndAction) {
     EXPECT_EQ(sut.run(1U), Status::kError);
     let_return();
 
-    std::ifstream file{path, std::ios::binary};
-    std::vector<char> bytes{std::istreambuf_iterator<char>{file}, {}};
-    FlightReader reader;
-    const Span<std::byte> region =
-        get_recorder_region({reinterpret_cast<std::byte*>(bytes.data()), bytes.size()});
-    ASSERT_EQ(reader.open({region.data(), region.size()}), Status::kOk);
     std::vector<std::int64_t> arguments;
-    for (std::size_t slot = 0U; slot < reader.get_capacity(); ++slot) {
-        FlightRecord record{};
-        if (reader.read(slot, record) == SlotState::kWhole && record.source == kMachineSource &&
-            record.code == static_cast<std::uint16_t>(MachineEvent::kActionOverrun)) {
+    for (const FlightRecord& record : read_machine_records(path)) {
+        if (record.code == static_cast<std::uint16_t>(MachineEvent::kActionOverrun)) {
             arguments.push_back(record.argument);
+            EXPECT_EQ(record.severity, Severity::kFault);
         }
     }
     const auto action = static_cast<std::int64_t>(ComponentAction::kStartup);

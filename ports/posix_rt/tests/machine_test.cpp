@@ -16,10 +16,10 @@
 #include <thread>
 #include <vector>
 
-#include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/crash_note.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/machine_records.hpp"
 #include "support/patient_options.hpp"
 
 namespace mamori::ports::posix_rt {
@@ -413,20 +413,9 @@ TEST(MachineTest, RecorderHasStartStopAndSignal) {
 
     MappedFile again;  // the machine has the file: another owner is refused
     EXPECT_EQ(again.open(path.c_str(), calc_recorder_file_size(16U)), Status::kError);
-    std::FILE* const file = std::fopen(path.c_str(), "rb");
-    ASSERT_NE(file, nullptr);
-    std::vector<std::byte> bytes(calc_recorder_file_size(16U));
-    EXPECT_EQ(std::fread(bytes.data(), 1U, bytes.size(), file), bytes.size());
-    std::fclose(file);
-    FlightReader reader;
-    const Span<std::byte> region = get_recorder_region({bytes.data(), bytes.size()});
-    ASSERT_EQ(reader.open({region.data(), region.size()}), Status::kOk);
     std::vector<int> codes;
-    for (std::size_t slot = 0U; slot < reader.get_capacity(); ++slot) {
-        FlightRecord record{};
-        if (reader.read(slot, record) == SlotState::kWhole && record.source == kMachineSource) {
-            codes.push_back(record.code);
-        }
+    for (const FlightRecord& record : read_machine_records(path)) {
+        codes.push_back(record.code);
     }
     EXPECT_EQ(codes, (std::vector<int>{1, 2, 3, 5}));
     static_cast<void>(std::remove(path.c_str()));
