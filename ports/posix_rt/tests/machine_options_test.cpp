@@ -80,6 +80,10 @@ TEST(MachineOptionsTest, OptionOutsideItsRangeIsRefused) {
     options = make_options();
     options.watchdog_timeout = 29_ms;  // lead, two frames and two polls
     EXPECT_EQ(run(options), Status::kBadParameter);
+    options.watchdog_timeout = 29_ms + Duration{1};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options.watchdog_timeout = Duration{0};
+    EXPECT_EQ(run(options), Status::kBadParameter);
     options.watchdog_timeout = Duration{std::numeric_limits<std::int64_t>::min()};
     EXPECT_EQ(run(options), Status::kBadParameter);
     options = make_options();
@@ -111,6 +115,12 @@ TEST(MachineOptionsTest, OptionAtTheEndOfItsRangeIsNotRefused) {
     options.recorder = path.c_str();
     options.recorder_capacity = 1U;
     EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
+    options = make_options();
+    options.watchdog_timeout = 29_ms + Duration{2};
+    EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
+    options.lead = Duration{1};
+    options.watch = {Duration{0}, Duration{1}, {Duration{1}, 1}};
+    EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
     static_cast<void>(std::remove(path.c_str()));
 }
 
@@ -139,6 +149,30 @@ TEST(MachineOptionsTest, EachCoreOrNoneHasAProcessor) {
     EXPECT_EQ(run(0U), MachineStep::kCrashHandlers);
     EXPECT_EQ(run(1U), MachineStep::kOptions);
     EXPECT_EQ(run(2U), MachineStep::kCrashHandlers);
+}
+
+TEST(MachineOptionsTest, DefaultsAreThoseOfTheManual) {
+    verifies("SWR-PRT-070", Technique::kInterface, Polarity::kNominal);
+    const MachineOptions options;
+    EXPECT_EQ(options.outputs.close, nullptr);
+    EXPECT_EQ(options.priority, 80);
+    EXPECT_TRUE(options.processors.empty());
+    EXPECT_EQ(options.window_stack, 262'144U);
+    EXPECT_EQ(options.runner_stack, 1'048'576U);
+    EXPECT_EQ(options.lead, 50_ms);
+    EXPECT_EQ(options.watch.lateness, 100_ms);
+    EXPECT_EQ(options.watch.period, 10_ms);
+    EXPECT_EQ(options.watch.rate.span, 1_s);
+    EXPECT_EQ(options.watch.rate.limit_ppm, 5000);
+    EXPECT_EQ(options.watchdog_timeout, 1_s);
+    EXPECT_EQ(options.recorder_capacity, 1024U);
+    EXPECT_EQ(options.device, nullptr);
+    EXPECT_EQ(options.recorder, nullptr);
+    EXPECT_EQ(options.event_log, nullptr);
+    EXPECT_EQ(MachineOptions::kPriorityStep, 5);
+    EXPECT_EQ(MachineOptions::kBackgroundPriorityMin, 16);
+    EXPECT_EQ(kThreadStackMin, 32'768U);
+    EXPECT_EQ(kThreadStackGuard, 65'536U);
 }
 
 TEST(MachineOptionsTest, PrioritiesLeaveRoomForTheDistancesOfTheManual) {

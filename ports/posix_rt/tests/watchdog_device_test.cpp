@@ -151,6 +151,18 @@ TEST_F(WatchdogDeviceTest, ResetByTheDeviceIsReported) {
     }
 }
 
+TEST_F(WatchdogDeviceTest, TheFirstDescriptorIsOneLikeAnyOther) {
+    verifies("SWR-PRT-024", Technique::kBoundaryValues);
+    driver_.device = 0;
+    WatchdogDevice sut{kFakeCalls};
+    ASSERT_EQ(sut.open("/dev/fake", kTimeout), Status::kOk);
+    EXPECT_TRUE(sut.is_open());
+    EXPECT_EQ(sut.service(Instant{}), Status::kOk);
+    EXPECT_EQ(sut.disarm(), Status::kOk);
+    EXPECT_FALSE(driver_.is_open);
+    EXPECT_FALSE(driver_.is_running);
+}
+
 TEST_F(WatchdogDeviceTest, DisarmStopsIt) {
     verifies("SWR-PRT-024");
     WatchdogDevice sut{kFakeCalls};
