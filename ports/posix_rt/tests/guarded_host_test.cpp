@@ -6,10 +6,13 @@
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <sys/time.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <limits>
 #include <string>
@@ -19,8 +22,10 @@
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
+#include "mamori/ports/posix_rt/crash_place.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
+#include "support/fake_clock.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -174,6 +179,114 @@ TEST_F(GuardedHostTest, ThreadsThatAreOpenAreNotOpenedAgain) {
     EXPECT_EQ(another.open(), Status::kOk);
     EXPECT_EQ(another.close(), Status::kOk);
     EXPECT_EQ(host_.open(), Status::kOk);
+}
+
+/// One window whose thread notes on a signal where it is.
+class WaitingThreadTest : public ::testing::Test {
+  protected:
+    static void note(int) {
+        place_ = get_crash_place();
+        ++noted_;
+    }
+    static void run_step(void*, std::size_t, std::size_t) noexcept {
+        thread_ = ::gettid();
+        stack_t stack{};
+        static_cast<void>(::sigaltstack(nullptr, &stack));
+        has_crash_stack_ = stack.ss_flags != SS_DISABLE;
+    }
+    std::size_t run_window(Instant deadline) {
+        return host_.run_within({&run_step, nullptr, 0U, 0U, 0U, 1U, WindowHost::Pass::kExecute}, deadline);
+    }
+
+    static inline std::atomic<int> noted_{0};
+    static inline CrashPlace place_{};
+    static inline std::atomic<pid_t> thread_{0};
+    static inline std::atomic<bool> has_crash_stack_{false};
+    const FrameClock clock_ = FrameClock::starting_in(0_ms);
+    std::array<WindowThread, 1U> threads_;
+    GuardedHost host_{threads_, clock_, {}};
+};
+
+TEST_F(WaitingThreadTest, ASignalDoesNotEndTheWaitAndFindsNoComponent) {
+    verifies("SWR-PRT-003", Technique::kFaultInjection, Polarity::kViolation);
+    struct sigaction action{};
+    struct sigaction before{};
+    action.sa_handler = &note;  // without SA_RESTART: the wait ends early
+    ASSERT_EQ(sigaction(SIGUSR1, &action, &before), 0);
+    ASSERT_EQ(host_.open(), Status::kOk);
+    for (int i = 1; i <= 3; ++i) {
+        ASSERT_EQ(run_window(clock_.get_now() + 600_s), 1U);
+        ASSERT_EQ(::syscall(SYS_tgkill, ::getpid(), thread_.load(), SIGUSR1), 0);
+        while (noted_ < i) {
+            std::this_thread::yield();
+        }
+        EXPECT_EQ(place_.window, CrashPlace::kNone);
+        EXPECT_EQ(place_.component, CrashPlace::kNone);
+    }
+    EXPECT_EQ(host_.close(), Status::kOk);
+    ASSERT_EQ(sigaction(SIGUSR1, &before, nullptr), 0);
+}
+
+TEST_F(WaitingThreadTest, AThreadThatIsStartedAgainHasACrashStackAgain) {
+    verifies("SWR-PRT-026", Technique::kStateTransition);
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_EQ(host_.open(), Status::kOk);
+        has_crash_stack_ = false;
+        ASSERT_EQ(run_window(clock_.get_now() + 600_s), 1U);
+        EXPECT_TRUE(has_crash_stack_) << i;
+        ASSERT_EQ(host_.close(), Status::kOk);
+    }
+}
+
+TEST_F(WaitingThreadTest, WorkNeedsAnOpenThreadThatHasReturned) {
+    verifies("SWR-PRT-003", Technique::kInterface, Polarity::kViolation);
+    EXPECT_CHECK_FAILS(static_cast<void>(run_window(Instant{})), "guarded_host.cpp", 5);
+    EXPECT_CHECK_FAILS(
+        {
+            static_cast<void>(host_.open());
+            const auto hang = [](void*, std::size_t, std::size_t) noexcept {
+                for (;;) {
+                    static_cast<void>(::pause());
+                }
+            };
+            static_cast<void>(
+                host_.run_within({hang, nullptr, 0U, 0U, 0U, 1U, WindowHost::Pass::kExecute}, Instant{}));
+            static_cast<void>(run_window(Instant{}));
+        },
+        "guarded_host.cpp", 5);
+}
+
+TEST_F(WaitingThreadTest, AStepThatEndsAtTheDeadlineIsInTime) {
+    verifies("SWR-PRT-003", Technique::kBoundaryValues);
+    FakeClock source{0};
+    source.monotonic_offset_ns = get_monotonic_clock().read_ns() + 600'000'000'000;  // no deadline passes
+    const FrameClock clock = FrameClock::starting_in(0_ms, source);
+    source.now_ns = 5'000;
+    GuardedHost host{threads_, clock, {}};
+    ASSERT_EQ(host.open(), Status::kOk);
+    const WindowHost::Work work{&run_step, nullptr, 0U, 0U, 0U, 1U, WindowHost::Pass::kExecute};
+    EXPECT_EQ(host.run_within(work, Instant{5'000}), 1U);
+    EXPECT_EQ(host.run_within(work, Instant{4'999}), 0U);
+    EXPECT_EQ(host.close(), Status::kOk);
+}
+
+TEST_F(WaitingThreadTest, RightsAreThoseOfTheThreadsOfTheHost) {
+    verifies("SWR-PRT-002", Technique::kFaultInjection, Polarity::kViolation);
+    GuardedHost elsewhere{threads_, clock_, {0, 100'000}};
+    ASSERT_EQ(elsewhere.open(), Status::kOk);
+    EXPECT_TRUE(elsewhere.get_priority_right().is_granted);
+    EXPECT_FALSE(elsewhere.get_processor_right().is_granted);
+    EXPECT_EQ(elsewhere.get_processor_right().system_error, EINVAL);
+    ASSERT_EQ(elsewhere.close(), Status::kOk);
+
+    const std::array<WindowRow, 1U> rows{};
+    GuardedHost without{threads_, rows, 1U, clock_, {0, 100'000}};
+    ASSERT_EQ(without.open(), Status::kOk) << "no window is on its core";
+    for (const Right& right : {without.get_priority_right(), without.get_processor_right()}) {
+        EXPECT_TRUE(right.is_granted);
+        EXPECT_EQ(right.system_error, 0);
+    }
+    EXPECT_EQ(without.close(), Status::kOk);
 }
 
 class CoreRunnerTest : public ::testing::Test {

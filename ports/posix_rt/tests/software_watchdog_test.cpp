@@ -254,6 +254,19 @@ TEST_F(ChainedWatchdogTest, DeviceIsServicedBeforeAndAfterTheFirstService) {
     EXPECT_TRUE(driver_.is_running) << "the owner disarms it";
 }
 
+TEST_F(ChainedWatchdogTest, DeviceIsServicedAtOnceAlsoBeforeTheTimeLineBegins) {
+    verifies("SWR-PRT-025", Technique::kBoundaryValues);
+    const FrameClock clock = FrameClock::starting_in(kHour);
+    SoftwareWatchdog sut{clock, {0_ms, kHour * 2}, make_reaction()};
+    ASSERT_EQ(sut.open({}, &device_), Status::kOk);
+    wait_for_services(1);
+    ASSERT_EQ(sut.service(clock.get_now()), Status::kOk);
+    wait_for_services(1);
+    EXPECT_LT(clock.get_now(), Instant{0});
+    EXPECT_EQ(sut.close(), Status::kOk);
+    EXPECT_EQ(outputs_.closings, 0);
+}
+
 TEST_F(ChainedWatchdogTest, DeviceIsNotServicedAfterTheWatchdogHasExpired) {
     verifies("SWR-PRT-025", Technique::kFaultInjection, Polarity::kViolation);
     SoftwareWatchdog sut{clock_, {0_ms, kShort}, make_reaction()};
