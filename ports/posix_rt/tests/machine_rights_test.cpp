@@ -10,7 +10,6 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <set>
@@ -23,6 +22,7 @@
 #include "mamori/trace/verifies.hpp"
 #include "support/patient_options.hpp"
 #include "support/refused_call.hpp"
+#include "support/threads.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -69,14 +69,6 @@ std::pair<int, bool> look_at(pid_t thread) {
         }
     }
     return {parameters.sched_priority, is_blocking};
-}
-
-std::set<pid_t> find_threads() {
-    std::set<pid_t> threads;
-    for (const auto& entry : std::filesystem::directory_iterator{"/proc/self/task"}) {
-        threads.insert(std::stoi(entry.path().filename().string()));
-    }
-    return threads;
 }
 
 bool may_have_a_priority() {
