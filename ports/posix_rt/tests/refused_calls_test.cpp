@@ -137,6 +137,22 @@ TEST(RefusedCallsTest, APartitionIsStartedWithoutWhatItOnlyPrefers) {
     }
 }
 
+TEST(RefusedCallsTest, AProcessThatCannotBeCreatedIsReportedWithItsCause) {
+    verifies("SWR-PRT-015", Technique::kFaultInjection, Polarity::kViolation);
+    for (const int call : {SYS_vfork, SYS_socketpair}) {
+        EXPECT_EQ(run_in_process([call] {
+                      refuse({static_cast<std::uint32_t>(call)});
+                      PartitionProcess process;
+                      EXPECT_EQ(start_limited(process, PartitionLimits::kSameUser), Status::kOutOfResources);
+                      EXPECT_EQ(process.get_error(), PartitionError::kNoProcess);
+                      EXPECT_EQ(process.get_system_error(), EPERM);
+                      EXPECT_EQ(process.get_pid(), -1);
+                  }),
+                  0)
+            << call;
+    }
+}
+
 /// The threads of the next calls cannot be created.
 void refuse_threads() {
     ASSERT_TRUE(refuse_call(SYS_clone3, EAGAIN, false));
