@@ -15,6 +15,8 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -151,6 +153,38 @@ TEST(RefusedCallsTest, AProcessThatCannotBeCreatedIsReportedWithItsCause) {
                   0)
             << call;
     }
+}
+
+TEST(RefusedCallsTest, MemoryIsNotLockedWithoutRoomForLaterAllocations) {
+    verifies("SWR-PRT-002", Technique::kFaultInjection, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([] {
+                  if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
+                      return;  // no privilege
+                  }
+                  ASSERT_EQ(::munlockall(), 0);
+                  ASSERT_TRUE(refuse_call_with(SYS_mmap, EAGAIN, 1U, 64U << 20U));
+                  const Right right = lock_memory(4096U);
+                  EXPECT_FALSE(right.is_granted);
+                  EXPECT_EQ(right.system_error, ENOMEM);
+                  std::ifstream status{"/proc/self/status"};
+                  const std::string text{std::istreambuf_iterator<char>{status}, {}};
+                  EXPECT_NE(text.find("VmLck:\t       0 kB"), std::string::npos) << text;
+              }),
+              0);
+}
+
+TEST(RefusedCallsTest, ARefusedLockIsReportedWithItsCause) {
+    verifies("SWR-PRT-002", Technique::kFaultInjection, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([] {
+                  ASSERT_TRUE(refuse_call(SYS_mlockall, ENOSYS, false));
+                  if (::mlockall(MCL_CURRENT) == 0) {
+                      return;  // a sanitizer does not call Linux
+                  }
+                  const Right right = lock_memory(4096U);
+                  EXPECT_FALSE(right.is_granted);
+                  EXPECT_EQ(right.system_error, ENOSYS);
+              }),
+              0);
 }
 
 /// The threads of the next calls cannot be created.
