@@ -31,8 +31,12 @@ class Faulty final : public Component {
     constexpr Faulty() noexcept : Component("faulty") {}
     Status starts{Status::kOk};
     std::atomic<bool> is_to_crash{false};
+    std::chrono::milliseconds start_time{0};
 
-    Status on_activated(ContextHandle) noexcept override { return starts; }
+    Status on_activated(ContextHandle) noexcept override {
+        std::this_thread::sleep_for(start_time);
+        return starts;
+    }
     Status on_execute(ContextHandle) noexcept override {
         if (is_to_crash) {
             std::raise(SIGSEGV);
@@ -50,6 +54,7 @@ MAMORI_TEST_SYSTEM(kSignalled);
 MAMORI_TEST_SYSTEM(kLateSignal);
 MAMORI_TEST_SYSTEM(kRequested);
 MAMORI_TEST_SYSTEM(kFails);
+MAMORI_TEST_SYSTEM(kStartsSlowly);
 MAMORI_TEST_SYSTEM(kFound);
 MAMORI_TEST_SYSTEM(kCrashes);
 
@@ -234,6 +239,22 @@ TEST_F(MachineRecordTest, FailedStartIsRecordedBeforeTheTimeLine) {
     EXPECT_LT(record.time, Instant{0}) << "its first frame would have begun in an hour";
     EXPECT_EQ(read_machine_records(path_).size(), 1U);
     EXPECT_EQ(g_closed, 1);
+}
+
+TEST_F(MachineRecordTest, TimeLineBeginsAfterTheStartHoweverLongItTakes) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kNominal);
+    MachineOptions options = make_recorded();
+    options.lead = 200_ms;
+    g_faulty_kStartsSlowly.start_time = std::chrono::milliseconds{300};
+    Instant started{1};
+    for (int i = 0; i < 5 && started >= Instant{0}; ++i) {  // again if the host stalled for longer
+        static_cast<void>(std::remove(path_.c_str()));
+        const auto sut = std::make_unique<Machine<kStartsSlowly>>(options);
+        ASSERT_EQ(sut->run(1U), Status::kOk);
+        started = find(MachineEvent::kStarted).time;
+    }
+    EXPECT_LT(started, Instant{0});
+    EXPECT_GE(started, Instant{0} - 200_ms);
 }
 
 TEST_F(MachineRecordTest, FindingOfTheWatchIsRecordedWithItsFault) {

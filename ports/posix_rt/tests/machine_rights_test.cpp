@@ -35,7 +35,7 @@ constexpr int kPriority = 50;
 /// Notes the priority of the thread that starts and stops it.
 class Witness final : public Component {
   public:
-    constexpr Witness() noexcept : Component("witness") {}
+    constexpr explicit Witness(const char* name) noexcept : Component(name) {}
     int starting{-1};
     Status on_startup(ContextHandle) noexcept override {
         starting = get_own_priority();
@@ -43,9 +43,9 @@ class Witness final : public Component {
     }
 };
 
-#define MAMORI_TEST_SYSTEM(name) \
-    Witness g_witness_##name;    \
-    constexpr auto name =        \
+#define MAMORI_TEST_SYSTEM(name)         \
+    Witness g_witness_##name{"witness"}; \
+    constexpr auto name =                \
         system(frame(10_ms), window("idle", 2_ms, 4_ms, budget(4_ms), run(g_witness_##name)))
 
 MAMORI_TEST_SYSTEM(kPlaced);
@@ -54,6 +54,13 @@ MAMORI_TEST_SYSTEM(kLimited);
 MAMORI_TEST_SYSTEM(kElsewhere);
 MAMORI_TEST_SYSTEM(kBelow);
 MAMORI_TEST_SYSTEM(kUnserved);
+MAMORI_TEST_SYSTEM(kLocked);
+
+Witness g_first{"first"};
+Witness g_second{"second"};
+constexpr auto kTwoCores = system(frame(10_ms), window("first", 2_ms, 4_ms, budget(4_ms), run(g_first)),
+                                  window("second", 2_ms, 4_ms, core(1U), budget(4_ms), run(g_second)));
+constexpr uid_t kNobodyElse = 61'234U;  ///< a user without processes
 
 /// @return fixed priority of a thread, and whether it blocks SIGINT and SIGTERM.
 std::pair<int, bool> look_at(pid_t thread) {
@@ -163,6 +170,49 @@ TEST(MachineRightsTest, AProcessorThatDoesNotExistIsReported) {
     EXPECT_EQ(sut->run(1U), Status::kOk) << describe(sut->get_report()).c_str();
     EXPECT_FALSE(sut->get_report().processor.is_granted);
     EXPECT_EQ(sut->get_report().processor.system_error, EINVAL);
+}
+
+TEST(MachineRightsTest, EachThreadThatCannotBeStartedNamesItsStepAndNoneIsLeft) {
+    verifies("SWR-PRT-070", Technique::kFaultInjection, Polarity::kViolation);
+    if (::geteuid() != 0U) {
+        GTEST_SKIP() << "verdict=no-privilege: only root may become a user without other threads";
+    }
+    struct Case {
+        rlim_t threads;  ///< that the user may have
+        MachineStep step;
+    };
+    for (const Case example : {Case{2U, MachineStep::kWindowThreads}, Case{3U, MachineStep::kWatch},
+                               Case{4U, MachineStep::kWatchdog}, Case{5U, MachineStep::kRunnerThreads},
+                               Case{6U, MachineStep::kRunnerThreads}, Case{7U, MachineStep::kNone}}) {
+        EXPECT_EQ(run_in_process([&example] {
+                      const rlimit limit{example.threads, example.threads};
+                      ASSERT_EQ(::setrlimit(RLIMIT_NPROC, &limit), 0);
+                      ASSERT_EQ(::setresuid(kNobodyElse, kNobodyElse, kNobodyElse), 0);
+                      g_closed = 0;
+                      const auto sut = std::make_unique<Machine<kTwoCores>>(make_rights_options());
+                      const bool is_started = example.step == MachineStep::kNone;
+                      EXPECT_EQ(sut->run(is_started ? 1U : MachineRun::kAllFrames),
+                                is_started ? Status::kOk : Status::kOutOfResources);
+                      EXPECT_EQ(sut->get_report().failed_step, example.step)
+                          << describe(sut->get_report()).c_str();
+                      EXPECT_EQ(g_closed, 1);
+                      EXPECT_EQ(find_threads().size(), 1U);
+                  }),
+                  0)
+            << example.threads;
+    }
+}
+
+TEST(MachineRightsTest, LockedMemoryIsReported) {
+    verifies("SWR-PRT-002", Technique::kBackToBack);
+    EXPECT_EQ(run_in_process([] {
+                  const Right expected = lock_memory(4096U);
+                  const auto sut = std::make_unique<Machine<kLocked>>(make_rights_options());
+                  EXPECT_EQ(sut->run(1U), Status::kOk);
+                  EXPECT_EQ(sut->get_report().memory.is_granted, expected.is_granted);
+                  EXPECT_EQ(sut->get_report().memory.system_error, expected.system_error);
+              }),
+              0);
 }
 
 TEST(MachineRightsTest, AWatchThatIsNotAboveTheCallingThreadEndsTheRunWithClosedOutputs) {

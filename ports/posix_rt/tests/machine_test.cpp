@@ -85,10 +85,26 @@ MAMORI_TEST_SYSTEM(kRefused);
 MAMORI_TEST_SYSTEM(kFailsAtStart);
 MAMORI_TEST_SYSTEM(kFailsAtStop);
 MAMORI_TEST_SYSTEM(kHangs);
+MAMORI_TEST_SYSTEM(kReturnsLate);
 MAMORI_TEST_SYSTEM(kExpires);
 MAMORI_TEST_SYSTEM(kCrashes);
 MAMORI_TEST_SYSTEM(kWatched);
 MAMORI_TEST_SYSTEM(kRecorded);
+
+class Actor final : public Component {
+  public:
+    constexpr Actor() noexcept : Component("actor") {}
+    void (*act)(){nullptr};
+    Status on_execute(ContextHandle) noexcept override {
+        act();
+        return Status::kOk;
+    }
+};
+Actor g_stopping;
+Counter g_following;
+constexpr auto kTwoWindows =
+    system(frame(40_ms), window("stopping", 0_ms, 15_ms, budget(15_ms), run(g_stopping)),
+           window("following", 20_ms, 15_ms, budget(15_ms), run(g_following)));
 
 Counter g_near;
 Adder g_far;
@@ -132,6 +148,8 @@ TEST(MachineTest, DevicesAreCalledOncePerFrameAndMeasuredAndARunContinuesTheTime
     EXPECT_NE(devices.thread, std::this_thread::get_id());
     const MachineReport& report = sut.get_report();
     EXPECT_EQ(report.openings.opened, 3U);
+    EXPECT_GT(report.openings.worst_lateness, Duration{0});
+    EXPECT_LT(report.openings.worst_lateness, 3600_s);
     EXPECT_GE(report.longest_sample.ns, 200'000);
     EXPECT_GE(report.longest_apply.ns, 100'000);
     EXPECT_EQ(g_counter_kRuns.out.get_published(),
@@ -322,9 +340,9 @@ TEST(MachineTest, WorkThatHangsAtTheEndIsReportedAndTheNextRunIsRefusedUntilItRe
     static Machine<kHangs> sut{make_options()};
     g_counter_kHangs.is_to_hang = true;
 
-    EXPECT_EQ(sut.run(1U), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut.run(3U), Status::kPreconditionNotMet);
     EXPECT_EQ(sut.get_report().failed_step, MachineStep::kStop);
-    EXPECT_EQ(sut.get_report().openings.overran + sut.get_report().openings.missed, 1U);
+    EXPECT_EQ(sut.get_report().openings.overran + sut.get_report().openings.missed, 3U);
     EXPECT_EQ(sut.run(1U), Status::kPreconditionNotMet);
     EXPECT_EQ(sut.get_report().failed_step, MachineStep::kWindowThreads);
 
@@ -335,6 +353,39 @@ TEST(MachineTest, WorkThatHangsAtTheEndIsReportedAndTheNextRunIsRefusedUntilItRe
         status = sut.run(1U);
     }
     EXPECT_EQ(status, Status::kOk);
+}
+
+TEST(MachineTest, WorkThatReturnsSoonAfterTheEndIsNoFailure) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kNominal);
+    static Machine<kReturnsLate> sut{make_options()};
+    Status status = Status::kError;
+    for (int i = 0; i < 10 && status != Status::kOk; ++i) {  // again if the host stalled for a second
+        g_counter_kReturnsLate.is_to_hang = true;
+        std::thread releaser{[] {
+            while (g_counter_kReturnsLate.last_start_ns < 0) {
+                std::this_thread::yield();
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds{100});
+            g_counter_kReturnsLate.is_to_hang = false;
+        }};
+        g_counter_kReturnsLate.last_start_ns = -1;
+        status = sut.run(1U);
+        releaser.join();
+    }
+    EXPECT_EQ(status, Status::kOk);
+    EXPECT_EQ(sut.get_report().openings.overran, sut.get_report().openings.opened);
+}
+
+TEST(MachineTest, AStopIsAtTheEndOfTheFrame) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kNominal);
+    static Machine<kTwoWindows> sut{make_options()};
+    static const auto request = [] { sut.request_stop(); };
+    g_stopping.act = [] { request(); };
+
+    ASSERT_EQ(sut.run(), Status::kOk);
+
+    EXPECT_GE(sut.get_report().openings.opened, 2U);
+    EXPECT_EQ(sut.get_report().openings.opened % 2U, 0U) << "the second window of the frame opens, too";
 }
 
 TEST(MachineTest, FindingOfTheScheduleWatchClosesTheOutputs) {
