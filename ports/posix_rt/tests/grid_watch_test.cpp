@@ -356,6 +356,13 @@ TEST_F(GridWatchTest, ARunInTimeAndADeliberateEndAreNotReported) {
     sut.close();
 }
 
+TEST(GridWatchRightsTest, AWatchNeedsOutputsToClose) {
+    verifies("SWR-PRT-033", Technique::kBoundaryValues, Polarity::kViolation);
+    const FrameClock clock = FrameClock::starting_in(0_ms);
+    EXPECT_CHECK_FAILS((GridWatch{{}, clock, get_raw_clock(), kLimits, {nullptr, nullptr}, {}}),
+                       "grid_watch.cpp", 3);
+}
+
 TEST(GridWatchRightsTest, ItsThreadGetsItsPriority) {
     verifies("SWR-PRT-031", Technique::kErrorGuessing);
     const FrameClock clock = FrameClock::starting_in(0_ms);

@@ -518,6 +518,76 @@ class InstantHost final : public WindowHost {
     const FrameClock& clock_;
 };
 
+TEST_F(CoreRunnerTest, TheFirstFrameBeginsAtTheStatedInstantOrLater) {
+    verifies("SWR-PRT-005", Technique::kBoundaryValues);
+    constexpr std::int64_t kFrame = 20'000'000;
+    JumpingClock source;
+    const FrameClock clock = FrameClock::starting_in(0_ms, source);
+    InstantHost host{clock};
+    for (const auto [from, first] : {std::array<std::int64_t, 2U>{-1, 0},
+                                     {0, 0},
+                                     {1, kFrame},
+                                     {2, kFrame},
+                                     {kFrame - 1, kFrame},
+                                     {kFrame, kFrame},
+                                     {kFrame + 1, 2 * kFrame},
+                                     {kFrame + 2, 2 * kFrame}}) {
+        CoreRunner sut{executive_, host, clock};
+        Counter counter;
+        sut.set_observer(&counter);
+        sut.run(1U, Instant{from});
+        EXPECT_EQ(counter.count, 2) << from;
+        EXPECT_EQ(counter.last_release, Instant{first} + 10_ms) << from;
+    }
+}
+
+/// A clock whose sleeps end late, each by another time.
+class LateClock final : public TimeSource {
+  public:
+    std::int64_t read_ns() const noexcept override { return now_ns; }
+    void wait_until(std::int64_t ns) const noexcept override {
+        constexpr std::array<std::int64_t, 4U> kLate{3, 7, 5, 7};
+        now_ns = ns + offset_ns + kLate[sleeps % kLate.size()];
+        ++sleeps;
+    }
+    std::int64_t to_monotonic(std::int64_t ns) const noexcept override { return ns; }
+
+    std::int64_t offset_ns{0};
+    mutable std::int64_t now_ns{0};
+    mutable std::size_t sleeps{0U};
+};
+
+/// Does all steps of a window except the last one.
+class FaultyHost final : public WindowHost {
+  public:
+    explicit FaultyHost(const FrameClock& clock) noexcept : clock_(clock) {}
+    Instant get_now() const noexcept override { return clock_.get_now(); }
+    Instant get_step_end() const noexcept override { return clock_.get_now(); }
+    std::size_t run_within(const Work& work, Instant) noexcept override { return work.count - 1U; }
+    bool has_returned(std::size_t) const noexcept override { return true; }
+
+  private:
+    const FrameClock& clock_;
+};
+
+TEST_F(CoreRunnerTest, OutcomesAndTheWorstLatenessAreCounted) {
+    verifies("SWR-PRT-005", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(executive_.initialize(), Status::kOk);
+    ASSERT_EQ(executive_.start(), Status::kOk);
+    for (const bool is_missed : {false, true}) {
+        LateClock source;
+        source.offset_ns = is_missed ? 15'000'000 : 0;  // after the budget, and after the next release
+        const FrameClock clock = FrameClock::starting_in(Duration{1}, source);
+        FaultyHost host{clock};
+        CoreRunner sut{executive_, host, clock};
+        sut.run(2U);
+        EXPECT_EQ(sut.get_counts().opened, 4U);
+        EXPECT_EQ(sut.get_counts().overran, is_missed ? 2U : 4U) << "the other windows are less late";
+        EXPECT_EQ(sut.get_counts().missed, is_missed ? 2U : 0U);
+        EXPECT_EQ(sut.get_counts().worst_lateness, Duration{source.offset_ns + 7});
+    }
+}
+
 TEST_F(CoreRunnerTest, AtTheEndOfTheTimeLineTheRunEndsOneFrameBeforeIt) {
     verifies("SWR-PRT-043", Technique::kBoundaryValues, Polarity::kViolation);
     constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();

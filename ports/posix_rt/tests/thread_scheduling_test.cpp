@@ -375,6 +375,28 @@ TEST(WatchSchedulingTest, WatchdogMustBeAboveTheFixedPriorityOfTheOpeningThread)
     });
 }
 
+TEST(WatchSchedulingTest, TheLowestFixedPriorityIsOneLikeAnyOther) {
+    verifies("SWR-PRT-041", Technique::kBoundaryValues, Polarity::kViolation);
+    if (!has_privilege()) {
+        GTEST_SKIP() << kNoPrivilege;
+    }
+    run_as_runner(1, [] {
+        const FrameClock clock = FrameClock::starting_in(0_ms);
+        Outputs outputs;
+        SoftwareWatchdog watchdog{clock, {0_ms, 60_s}, {&Outputs::close, &outputs, false}};
+        EXPECT_EQ(watchdog.open({1, kAny}), Status::kBadParameter);
+        ASSERT_EQ(watchdog.open({2, kAny}), Status::kOk);
+        EXPECT_EQ(watchdog.close(), Status::kOk);
+        constexpr GridLimits kLimits{60_s, 1_ms, {60_s, 500'000}};
+        GridWatch low{{}, clock, get_raw_clock(), kLimits, {&Outputs::close, &outputs}, {1, kAny}};
+        EXPECT_EQ(low.open(), Status::kBadParameter);
+        GridWatch above{{}, clock, get_raw_clock(), kLimits, {&Outputs::close, &outputs}, {2, kAny}};
+        ASSERT_EQ(above.open(), Status::kOk);
+        above.close();
+        EXPECT_FALSE(outputs.is_closed);
+    });
+}
+
 TEST(WatchSchedulingTest, GridWatchMustBeAboveTheFixedPriorityOfTheOpeningThread) {
     verifies("SWR-PRT-041", Technique::kBoundaryValues, Polarity::kViolation);
     if (!has_privilege()) {
