@@ -92,6 +92,8 @@ constexpr Instant kFirst{std::numeric_limits<std::int64_t>::min()};
 
 TEST(FrameClockTest, SumsStayWithinTheRangeOnBothSidesOfItsEnds) {
     verifies("SWR-PRT-044", Technique::kBoundaryValues);
+    EXPECT_EQ(add_saturating(Instant{5}, Duration{-1}), Instant{4});
+    EXPECT_EQ(add_saturating(Instant{-5}, Duration{1}), Instant{-4});
     EXPECT_EQ(add_saturating(kLast - Duration{1}, Duration{1}), kLast);
     EXPECT_EQ(add_saturating(kLast, Duration{1}), kLast);
     EXPECT_EQ(add_saturating(kLast, Duration{kLast.ns}), kLast);

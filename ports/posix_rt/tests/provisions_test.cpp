@@ -144,6 +144,7 @@ TEST_F(MemoryFiguresTest, AllButTheStatedMemoryIsLocked) {
     EXPECT_EQ(look_at(make("1024", "0", "0"), 1023U * 1024U), Status::kPreconditionNotMet);
     EXPECT_EQ(look_at(make("9876543210", "9876543210", "0"), 0U), Status::kOk);
     EXPECT_EQ(look_at(make("9876543211", "9876543210", "0"), 0U), Status::kPreconditionNotMet);
+    EXPECT_EQ(look_at("\nVmSize:\t7 kB\nVmLck:\t7 kB\nVmSwap:\t0 kB\n", 0U), Status::kOk) << "from the start";
     EXPECT_EQ(look_at(make("1964", "1900", "1")), Status::kPreconditionNotMet) << "swapped memory";
     EXPECT_EQ(look_at(make("1964", "1900", "10")), Status::kPreconditionNotMet);
 }

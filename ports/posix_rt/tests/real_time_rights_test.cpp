@@ -67,6 +67,15 @@ TEST(RealTimeRightsTest, TheFirstRefusalOfTwoRightsCounts) {
     EXPECT_EQ(combine(no_permission, no_memory).system_error, EPERM);
 }
 
+TEST(RealTimeRightsTest, AThreadMayLeaveIdleIfAnotherOneCould) {
+    verifies("SWR-PRT-042", Technique::kBackToBack);
+    bool could = false;
+    std::thread{[&could] {
+        could = set_idle(pthread_self()).is_granted && set_priority(pthread_self(), 0).is_granted;
+    }}.join();
+    EXPECT_EQ(may_leave_idle(), could);
+}
+
 /// Drops all privileges of this process.
 bool drop_privileges() {
     const rlimit none{0U, 0U};
