@@ -121,7 +121,7 @@ TEST_F(ExecutionBudgetTest, TheShortestBudgetIsExhaustedByTheFirstStep) {
     EXPECT_EQ(run(2U, deadline_), 0U);
 }
 
-/// Stands still, and notes each deadline that a guard waits for.
+/// Does not advance, and notes each deadline that a guard waits for.
 class LookClock final : public TimeSource {
   public:
     std::int64_t read_ns() const noexcept override { return 0; }

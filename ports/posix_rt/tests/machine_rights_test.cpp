@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: each thread of a machine has its priority and its signals, the calling thread has its own again after
-// a run, and the report tells each denial. Method: a device looks at all threads of the process during a
+// a run, and the report tells each denial. Method: a device looks at each thread of the process during a
 // frame; an ordinary user without a limit of the priority (RLIMIT_RTPRIO) is denied each.
 #include <gtest/gtest.h>
 #include <sched.h>

@@ -244,7 +244,7 @@ TEST_F(PartitionProcessTest, AnEnvironmentIsInheritedUpToTheLimit) {
                   FrameClock clock = FrameClock::at_epoch(5);
                   order_.program = "/bin/true";
                   order_.clock = &clock;
-                  EXPECT_EQ(sut_.start(order_), Status::kOk) << "no entry at all";
+                  EXPECT_EQ(sut_.start(order_), Status::kOk) << "without an entry";
                   EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
                   EXPECT_EQ(find_partition_clock(clock), Status::kPreconditionNotMet);
                   for (int i = 0; i < 510; ++i) {

@@ -235,7 +235,7 @@ TEST_F(SoftwareWatchdogTest, ASignalOfACrashReachesItsThreadAndEndsNoWait) {
     ASSERT_EQ(::sigaction(SIGTRAP, &before, nullptr), 0);
 }
 
-/// Stands still until the test advances it, and notes each instant that the thread waits for. No wait ends.
+/// Stops until the test advances it, and notes each instant that the thread waits for. No wait ends.
 class StillClock final : public TimeSource {
   public:
     std::int64_t read_ns() const noexcept override { return now_ns; }

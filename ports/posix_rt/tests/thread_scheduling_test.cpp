@@ -229,7 +229,7 @@ TEST_F(HangTest, RunnerThatIsNotAboveTheWindowsRemovesTheirPriorityAndReportsIt)
             wait_until_back(host);
             for (const std::size_t window : {kProtecting, kHanging}) {
                 static_cast<void>(run_window(host, window, 30_ms));
-                EXPECT_EQ(seen_, kOrdinary) << "for ever";
+                EXPECT_EQ(seen_, kOrdinary) << "permanently";
             }
             end(host);
         });
