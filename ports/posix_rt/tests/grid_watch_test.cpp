@@ -239,6 +239,8 @@ TEST_F(GridWatchTest, AMissingTimerExpiryClosesTheOutputsWithoutTheRunner) {
 
 TEST_F(GridWatchTest, AWatchThatIsOpenedAgainWatches) {
     verifies("SWR-PRT-031", Technique::kStateTransition, Polarity::kViolation);
+    EXPECT_EQ(sut_.get_look_count(), 0U);
+    EXPECT_FALSE(sut_.is_latched());
     ASSERT_EQ(sut_.open(), Status::kOk);
     sut_.close();
     ASSERT_EQ(sut_.open(), Status::kOk);

@@ -91,6 +91,13 @@ TEST(InitialStateTest, APartitionHasTheLimitsOfTheManual) {
     const PartitionOrder order{};
     EXPECT_EQ(order.output, -1);
     EXPECT_EQ(order.errors, -1);
+    EXPECT_EQ(PartitionOutput::kNameMax, 32U);
+    EXPECT_EQ(PartitionOutput::kLineMax, 512U);
+    EXPECT_EQ(PartitionOutput::kForwardMax, 65'536U);
+    const PartitionOutput output{"p"};
+    EXPECT_EQ(output.get_output(), -1);
+    EXPECT_EQ(output.get_errors(), -1);
+    EXPECT_EQ(output.get_lost_count(), 0U);
 }
 
 TEST(InitialStateTest, APartitionThatWasNotStartedHasNoProcess) {

@@ -358,22 +358,27 @@ TEST(MachineTest, WorkThatHangsAtTheEndIsReportedAndTheNextRunIsRefusedUntilItRe
 TEST(MachineTest, WorkThatReturnsSoonAfterTheEndIsNoFailure) {
     verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kNominal);
     static Machine<kReturnsLate> sut{make_options()};
-    Status status = Status::kError;
-    for (int i = 0; i < 10 && status != Status::kOk; ++i) {  // again if the host stalled for a second
-        g_counter_kReturnsLate.is_to_hang = true;
-        std::thread releaser{[] {
-            while (g_counter_kReturnsLate.last_start_ns < 0) {
+    Counter& counter = g_counter_kReturnsLate;
+    bool is_shown = false;
+    // Again if the host stalled: a window was missed, or a second was over.
+    for (int i = 0; i < 10 && !is_shown; ++i) {
+        const std::uint64_t before = sut.get_report().openings.overran;
+        std::atomic<bool> has_ended{false};
+        counter.last_start_ns = -1;
+        counter.is_to_hang = true;
+        std::thread releaser{[&] {
+            while (counter.last_start_ns < 0 && !has_ended) {
                 std::this_thread::yield();
             }
             std::this_thread::sleep_for(std::chrono::milliseconds{100});
-            g_counter_kReturnsLate.is_to_hang = false;
+            counter.is_to_hang = false;
         }};
-        g_counter_kReturnsLate.last_start_ns = -1;
-        status = sut.run(1U);
+        const Status status = sut.run(1U);
+        has_ended = true;
         releaser.join();
+        is_shown = status == Status::kOk && sut.get_report().openings.overran > before;
     }
-    EXPECT_EQ(status, Status::kOk);
-    EXPECT_EQ(sut.get_report().openings.overran, sut.get_report().openings.opened);
+    EXPECT_TRUE(is_shown);
 }
 
 TEST(MachineTest, AStopIsAtTheEndOfTheFrame) {
