@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "mamori/trace/verifies.hpp"
 #include "support/machine_records.hpp"
 #include "support/patient_options.hpp"
+#include "support/threads.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -172,7 +174,9 @@ TEST_F(MachineRecordTest, SignalIsReportedAtItsInstant) {
     EXPECT_EQ(find(MachineEvent::kStopped).severity, Severity::kInfo);
     EXPECT_GE(find(MachineEvent::kStopped).time, after);
 
+    const std::uint64_t opened = report.openings.opened;
     ASSERT_EQ(sut.run(1U), Status::kOk);
+    EXPECT_EQ(sut.get_report().openings.opened, opened + 1U) << "the stop is over";
     EXPECT_EQ(sut.get_report().signal, 0) << "of the last run only";
     EXPECT_EQ(sut.get_report().until_closed, Duration{0});
     EXPECT_EQ(g_closed, 2);
@@ -230,7 +234,9 @@ TEST_F(MachineRecordTest, FailedStartIsRecordedBeforeTheTimeLine) {
     static Machine<kFails> sut{options};
     g_faulty_kFails.starts = Status::kUnsupported;
 
+    const std::set<pid_t> threads = find_threads();
     EXPECT_EQ(sut.run(1U), Status::kUnsupported);
+    EXPECT_EQ(find_threads(), threads) << "none is left";
 
     const FlightRecord record = find(MachineEvent::kStopped);
     EXPECT_EQ(record.argument, static_cast<std::int64_t>(Status::kUnsupported));

@@ -123,6 +123,9 @@ struct SpyDevices final : Devices {
         sampled.push_back(frame);
         starts.push_back(start.ns);
         thread = std::this_thread::get_id();
+        stack_t stack{};
+        static_cast<void>(::sigaltstack(nullptr, &stack));
+        has_crash_stack = stack.ss_flags != SS_DISABLE;
         std::this_thread::sleep_for(std::chrono::microseconds{200});
     }
     void apply(std::uint64_t frame, Instant, Duration) noexcept override {
@@ -133,6 +136,7 @@ struct SpyDevices final : Devices {
     std::vector<std::uint64_t> applied;
     std::vector<std::int64_t> starts;
     std::thread::id thread{};
+    bool has_crash_stack{false};
 };
 
 TEST(MachineTest, DevicesAreCalledOncePerFrameAndMeasuredAndARunContinuesTheTimeLine) {
@@ -146,6 +150,7 @@ TEST(MachineTest, DevicesAreCalledOncePerFrameAndMeasuredAndARunContinuesTheTime
     EXPECT_EQ(devices.applied, devices.sampled);
     EXPECT_EQ(devices.starts, (std::vector<std::int64_t>{0, 10'000'000, 20'000'000}));
     EXPECT_NE(devices.thread, std::this_thread::get_id());
+    EXPECT_TRUE(devices.has_crash_stack);
     const MachineReport& report = sut.get_report();
     EXPECT_EQ(report.openings.opened, 3U);
     EXPECT_GT(report.openings.worst_lateness, Duration{0});
