@@ -50,6 +50,8 @@ TEST(FrameClockTest, InstantsAreThoseOfTheMonotonicClock) {
         EXPECT_LT(time.tv_nsec, 1'000'000'000);
     }
     EXPECT_EQ(to_ns(sut.to_timespec(Instant{-epoch - 1})), 0) << "before the clock's own zero";
+    EXPECT_EQ(to_ns(sut.to_timespec(Instant{-epoch})), 0);
+    EXPECT_EQ(to_ns(sut.to_timespec(Instant{-epoch + 1})), 1);
 }
 
 TEST(FrameClockTest, AnInterruptedSleepDoesNotEndEarly) {

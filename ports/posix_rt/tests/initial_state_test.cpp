@@ -115,6 +115,7 @@ TEST(InitialStateTest, ACrashNoteStatesNothing) {
     verifies("SWR-PRT-027", Technique::kStateTransition);
     const CrashNote note{};
     EXPECT_EQ(kCrashNoteSize, 30U);
+    EXPECT_EQ(calc_recorder_file_size(2U), flight::calc_region_size(2U) + 30U);
     EXPECT_EQ(note.time, Instant{0});
     EXPECT_EQ(note.address, 0U);
     EXPECT_EQ(note.session, 0U);
@@ -135,6 +136,7 @@ TEST(InitialStateTest, AFileAndASharedMemoryThatWereNotOpenedAreEmpty) {
     EXPECT_EQ(file.flush(), Status::kPreconditionNotMet);
     SharedMemory memory;
     EXPECT_FALSE(memory.is_open());
+    EXPECT_EQ(memory.get_region().size(), 0U);
     EXPECT_EQ(memory.get_descriptor(), -1);
     EXPECT_EQ(memory.get_system_error(), 0);
 }

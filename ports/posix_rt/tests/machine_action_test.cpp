@@ -35,6 +35,7 @@ std::atomic<std::int64_t> g_slow_ns{0};
 std::atomic<std::int64_t> g_began_ns{0};
 std::atomic<std::int64_t> g_closed_ns{0};
 std::atomic<int> g_left{0};
+std::atomic<int> g_signal{0};  ///< that the action sends to this process
 
 std::int64_t read_ns() noexcept {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
@@ -68,6 +69,9 @@ class Hanger final : public Component {
             return Status::kOk;
         }
         g_began_ns = read_ns();
+        if (g_signal != 0) {
+            static_cast<void>(::kill(::getpid(), g_signal));
+        }
         while (!g_may_return || read_ns() - g_began_ns < g_slow_ns) {
             std::this_thread::yield();
         }
@@ -240,13 +244,7 @@ TEST_F(MachineActionTest, SignalDuringAHangClosesTheOutputsAtOnce) {
     verifies("SWR-PRT-085", Technique::kErrorGuessing, Polarity::kViolation);
     static Machine<kIsStopped> sut{make_action_options()};
     g_faulty = ComponentAction::kStartup;
-    g_began_ns = 0;
-    std::thread sender{[] {
-        while (g_began_ns == 0) {
-            std::this_thread::yield();
-        }
-        static_cast<void>(::kill(::getpid(), SIGTERM));
-    }};
+    g_signal = SIGTERM;
     struct sigaction own{};
     struct sigaction before{};
     own.sa_handler = [](int) {};
@@ -254,7 +252,7 @@ TEST_F(MachineActionTest, SignalDuringAHangClosesTheOutputsAtOnce) {
 
     EXPECT_EQ(sut.run(1U), Status::kError);
 
-    sender.join();
+    g_signal = 0;
     EXPECT_EQ(sigaction(SIGTERM, &before, nullptr), 0);
     EXPECT_EQ(sut.get_report().signal, SIGTERM);
     EXPECT_STREQ(sut.get_report().late_action, "on_startup");

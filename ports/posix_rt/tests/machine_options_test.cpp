@@ -249,6 +249,7 @@ TEST(MachineOptionsTest, EachStepHasASentence) {
     std::vector<std::string> sentences;
     for (int step = 0; step <= static_cast<int>(MachineStep::kStop); ++step) {
         sentences.emplace_back(describe(static_cast<MachineStep>(step)));
+        EXPECT_FALSE(sentences.back().empty()) << step;
         for (std::size_t i = 0U; i + 1U < sentences.size(); ++i) {
             EXPECT_NE(sentences[i], sentences.back());
         }
