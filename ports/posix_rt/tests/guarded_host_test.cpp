@@ -330,6 +330,26 @@ TEST(CoreRunnerMarginTest, ATableOfTwoCoresNeedsAPublicationMargin) {
     EXPECT_EQ(run_once(0_ms, 0U), 0U);
 }
 
+TEST(CoreRunnerMarginTest, AConnectionWithoutItsWindowsLeavesNoCore) {
+    verifies("SWR-PRT-047", Technique::kBoundaryValues);
+    std::array<WindowRow, 2U> windows{};
+    windows[1U].core = 1U;
+    std::array<ConnectionRow, 1U> connections{};
+    const auto has_margin = [&](std::size_t source, std::size_t sink) {
+        connections[0U].source_window = source;
+        connections[0U].sink_window = sink;
+        SystemView view{};
+        view.windows = windows;
+        view.connections = connections;
+        return has_publication_margin(view);
+    };
+    EXPECT_TRUE(has_margin(kNoIndex, 1U));
+    EXPECT_TRUE(has_margin(1U, kNoIndex));
+    EXPECT_TRUE(has_margin(kNoIndex, kNoIndex));
+    EXPECT_TRUE(has_margin(1U, 1U));
+    EXPECT_FALSE(has_margin(0U, 1U));
+}
+
 TEST_F(CoreRunnerTest, EachWindowOpensAtItsPlaceOnTheGridHoweverLateTheMachineIs) {
     verifies("SWR-PRT-005");
     ASSERT_EQ(host_.open(), Status::kOk);

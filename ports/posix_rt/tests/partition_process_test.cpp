@@ -516,6 +516,21 @@ TEST_F(PartitionProcessTest, AHangingPartitionIsRunningAndCanBeEnded) {
     EXPECT_EQ(sut_.end(), Status::kPreconditionNotMet);
 }
 
+TEST_F(PartitionProcessTest, AnOwnerClosesNoDescriptorOfOthers) {
+    verifies("SWR-PRT-061", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([] {
+                  ASSERT_EQ(::dup2(2, 0), 0);
+                  {
+                      PartitionProcess ended;
+                      ASSERT_EQ(ended.start({"/bin/true", {}, {}, nullptr, {}}), Status::kOk);
+                      EXPECT_EQ(posix_rt::wait_for_end(ended), PartitionState::kEnded);
+                      const PartitionProcess unused;
+                  }
+                  EXPECT_NE(::fcntl(0, F_GETFD), -1);
+              }),
+              0);
+}
+
 TEST_F(PartitionProcessTest, APartitionThatHasEndedCanBeStartedAgain) {
     verifies("SWR-PRT-017");
     for (int round = 0; round < 3; ++round) {

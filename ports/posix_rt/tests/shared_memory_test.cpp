@@ -199,6 +199,8 @@ TEST(SharedMemoryTest, AMemoryOfOneByteAndNoneAboveTheLimitOfLinuxIsCreated) {
     EXPECT_EQ(other.get_writable_region().size(), 0U);
     other.close();
     EXPECT_EQ(other.get_region().size(), 0U);
+    sut.close();
+    EXPECT_EQ(sut.get_descriptor(), -1);
 }
 
 TEST(SharedMemoryTest, AnExhaustedSystemIsReported) {
