@@ -176,7 +176,7 @@ TEST_F(MachineRecordTest, SignalIsReportedAtItsInstant) {
 
     const std::uint64_t opened = report.openings.opened;
     ASSERT_EQ(sut.run(1U), Status::kOk);
-    EXPECT_EQ(sut.get_report().openings.opened, opened + 1U) << "the stop is over";
+    EXPECT_EQ(sut.get_report().openings.opened, opened + 1U) << "the stop has ended";
     EXPECT_EQ(sut.get_report().signal, 0) << "of the last run only";
     EXPECT_EQ(sut.get_report().until_closed, Duration{0});
     EXPECT_EQ(g_closed, 2);
