@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <memory>
@@ -104,7 +105,7 @@ TEST(MachineRightsTest, EachThreadHasItsPriorityAndOnlyTheRunnersAndTheWatchTake
     ASSERT_EQ(sut.run(1U,
                       [&](std::uint64_t) {
                           while (!look_at(caller).second) {  // it waits for the end of the run
-                              std::this_thread::yield();
+                              std::this_thread::sleep_for(std::chrono::milliseconds{1});
                           }
                           for (const pid_t thread : find_threads()) {
                               if (before.count(thread) == 0U) {
