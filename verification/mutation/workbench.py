@@ -272,6 +272,8 @@ def _run(argv: Iterable[str], timeout_s: float, cwd: Path | None = None) -> tupl
     @return status and output; status 124 and TIMED_OUT if the program exceeded its time limit."""
     limited = ("/bin/sh", "-c", f'ulimit -v {MEMORY_KIB} -c 0 -f {FILE_BLOCKS}; exec "$@"', "sh", *argv)
     environment = {name: value for name, value in os.environ.items() if not name.startswith("GTEST_")}
+    if cwd is not None:
+        environment["TEST_TMPDIR"] = str(cwd)  # enclosed tests of all benches have the same process id, so their files have the same names
     with subprocess.Popen(limited, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=cwd,
                           start_new_session=True, env=environment) as child:  # fmt: skip
         try:

@@ -8,6 +8,7 @@
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <netinet/in.h>
+#include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
@@ -293,6 +294,14 @@ TEST_F(FrameLimitTest, SignalsOfTheProcessGoToOtherThreads) {
     EXPECT_EQ(inbox.blocked_count, SIGSYS - 3);  // all but SIGKILL and SIGSTOP
 }
 
+/// As in <asm/termbits.h>, which cannot be included with <termios.h>: the speeds are in bits per second.
+struct termios2 {
+    std::array<tcflag_t, 4U> flags;
+    std::array<cc_t, 20U> characters;
+    speed_t c_ispeed;
+    speed_t c_ospeed;
+};
+
 class LineSpeedTest : public FrameLimitTest {
   protected:
     void SetUp() override {
@@ -309,27 +318,17 @@ class LineSpeedTest : public FrameLimitTest {
 
 TEST_F(LineSpeedTest, EachSpeedIsSetAndItsNeighboursAreRejected) {
     verifies("SWR-LCM-010", Technique::kBoundaryValues, Polarity::kViolation);
-    struct Speed {
-        std::uint32_t bits_per_s;
-        speed_t code;
-    };
-    constexpr std::array<Speed, 8U> kSpeeds{{{9600U, B9600},
-                                             {19200U, B19200},
-                                             {38400U, B38400},
-                                             {57600U, B57600},
-                                             {115200U, B115200},
-                                             {230400U, B230400},
-                                             {460800U, B460800},
-                                             {921600U, B921600}}};
+    constexpr std::array<std::uint32_t, 8U> kSpeeds{9600U,   19200U,  38400U,  57600U,
+                                                    115200U, 230400U, 460800U, 921600U};
     const std::string path = get_path();
-    for (const Speed& speed : kSpeeds) {
-        ASSERT_EQ(sender_.open_serial(path.c_str(), speed.bits_per_s), Status::kOk) << speed.bits_per_s;
-        termios line{};
-        ASSERT_EQ(::tcgetattr(master_, &line), 0);
-        EXPECT_EQ(::cfgetispeed(&line), speed.code);
-        EXPECT_EQ(::cfgetospeed(&line), speed.code);
+    for (const std::uint32_t speed : kSpeeds) {
+        ASSERT_EQ(sender_.open_serial(path.c_str(), speed), Status::kOk) << speed;
+        termios2 line{};
+        ASSERT_EQ(::ioctl(master_, TCGETS2, &line), 0);
+        EXPECT_EQ(line.c_ispeed, speed);
+        EXPECT_EQ(line.c_ospeed, speed);
         sender_.close();
-        for (const std::uint32_t other : {speed.bits_per_s - 1U, speed.bits_per_s + 1U}) {
+        for (const std::uint32_t other : {speed - 1U, speed + 1U}) {
             EXPECT_EQ(sender_.open_serial(path.c_str(), other), Status::kError) << other;
             EXPECT_EQ(sender_.get_fault(), LinkFault::kLine) << other;
         }

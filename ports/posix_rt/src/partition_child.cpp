@@ -2,6 +2,7 @@
 #include "partition_child.hpp"
 
 #include <fcntl.h>
+#include <linux/capability.h>
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -61,14 +62,27 @@ bool set_limits(const PartitionLimits& limits) noexcept {
            (limits.process_max == 0U || limit(RLIMIT_NPROC, limits.process_max));
 }
 
+/// Also empties the ambient set. The program of a root user would get each inheritable capability, although
+/// the bounding set has none.
+bool drop_inheritable_capabilities() noexcept {
+    __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+    std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};
+    if (::syscall(SYS_capget, &header, sets.data()) != 0) {
+        return false;
+    }
+    for (__user_cap_data_struct& set : sets) {
+        set.inheritable = 0U;
+    }
+    return ::syscall(SYS_capset, &header, sets.data()) == 0;
+}
+
 /// Removes all capabilities of the program and the possibility to get new ones. A process without the
-/// privilege to remove them has none.
+/// privilege to remove them from its bounding set has none.
 bool drop_capabilities() noexcept {
     for (unsigned long capability = 0UL; capability < kCapabilityEnd; ++capability) {
         static_cast<void>(::prctl(PR_CAPBSET_DROP, capability, 0UL, 0UL, 0UL));
     }
-    static_cast<void>(::prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0UL, 0UL, 0UL));
-    return ::prctl(PR_SET_NO_NEW_PRIVS, 1UL, 0UL, 0UL, 0UL) == 0;
+    return drop_inheritable_capabilities() && ::prctl(PR_SET_NO_NEW_PRIVS, 1UL, 0UL, 0UL, 0UL) == 0;
 }
 
 /// Linux ends this process first when memory is exhausted. Without the file, Linux selects a process.

@@ -498,6 +498,9 @@ TEST_F(CrashHandlersTest, InvalidPlanAndSecondHandlersAreRejected) {
         Status::kBadParameter);
     EXPECT_EQ(sut.install({&Shared::close_outputs, shared_, region.subspan(1U, kCrashNoteSize), 0U, clock}),
               Status::kBadParameter);
+    EXPECT_EQ(sut.install({&Shared::close_outputs, shared_, region.subspan(0U, kCrashNoteSize), 0U, clock}),
+              Status::kOk);
+    sut.remove();
     struct sigaction before{};
     ASSERT_EQ(::sigaction(SIGSEGV, nullptr, &before), 0);
     ASSERT_EQ(sut.install({&Shared::close_outputs, shared_, region, 0U, clock}), Status::kOk);

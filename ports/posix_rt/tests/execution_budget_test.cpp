@@ -9,7 +9,9 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <thread>
+#include <vector>
 
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 #include "mamori/trace/verifies.hpp"
@@ -99,6 +101,61 @@ TEST_F(ExecutionBudgetTest, TheNextInstanceHasTheWholeBudget) {
     time_ = 30_ms;
     EXPECT_EQ(run(1U, deadline_), 1U);
     EXPECT_EQ(run(1U, deadline_ + 1_s), 1U);
+}
+
+TEST_F(ExecutionBudgetTest, ANewThreadHasTheWholeBudgetAlsoForTheSameDeadline) {
+    verifies("SWR-PRT-080", Technique::kStateTransition);
+    time_ = 30_ms;
+    EXPECT_EQ(run(1U, deadline_), 1U);
+    EXPECT_EQ(run(1U, deadline_ + 1_s), 1U);
+    ASSERT_EQ(host_.close(), Status::kOk);
+    ASSERT_EQ(host_.open(), Status::kOk);
+    EXPECT_EQ(run(2U, deadline_ + 1_s), 1U) << "40 ms, not those of the thread before";
+}
+
+TEST_F(ExecutionBudgetTest, TheShortestBudgetIsExhaustedByTheFirstStep) {
+    verifies("SWR-PRT-080", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(host_.close(), Status::kOk);
+    ASSERT_EQ(threads_[0].set_execution_budget(Duration{1}), Status::kOk);
+    ASSERT_EQ(host_.open(), Status::kOk);
+    EXPECT_EQ(run(2U, deadline_), 0U);
+}
+
+/// Does not advance, and notes each deadline that a guard waits for.
+class LookClock final : public TimeSource {
+  public:
+    std::int64_t read_ns() const noexcept override { return 0; }
+    void wait_until(std::int64_t) const noexcept override {}
+    std::int64_t to_monotonic(std::int64_t ns) const noexcept override {
+        looks.push_back(Instant{ns});
+        return get_monotonic_clock().read_ns() + ns;
+    }
+    mutable std::vector<Instant> looks;
+};
+
+TEST(ExecutionLookTest, TheGuardLooksWhenTheBudgetCanBeExhausted) {
+    verifies("SWR-PRT-080", Technique::kBoundaryValues);
+    constexpr Instant kDeadline = Instant{} + 600_s;
+    for (const Duration budget : {Duration{0}, 1_s}) {
+        const LookClock source;
+        const FrameClock clock = FrameClock::starting_in(0_ms, source);
+        std::array<WindowThread, 1U> threads;
+        ASSERT_EQ(threads[0].set_execution_budget(budget), Status::kOk);
+        GuardedHost host{threads, clock, {}};
+        ASSERT_EQ(host.open(), Status::kOk);
+        const auto step = [](void*, std::size_t, std::size_t) noexcept {
+            std::this_thread::sleep_for(std::chrono::milliseconds{20});
+        };
+        EXPECT_EQ(host.run_within({step, nullptr, 0U, 0U, 0U, 1U, WindowHost::Pass::kExecute}, kDeadline),
+                  1U);
+        ASSERT_FALSE(source.looks.empty());
+        EXPECT_LE(source.looks[0], budget == Duration{0} ? kDeadline : Instant{} + budget);
+        EXPECT_GT(source.looks[0], budget == Duration{0} ? kDeadline - Duration{1} : Instant{} + 500_ms);
+        // The step waits, so another look comes only if the host stalls for longer than the budget.
+        EXPECT_LE(source.looks.size(), 100U);
+        EXPECT_TRUE(budget != Duration{0} || source.looks.size() == 1U);
+        EXPECT_EQ(host.close(), Status::kOk);
+    }
 }
 
 TEST_F(ExecutionBudgetTest, TheDeadlineHoldsInAddition) {

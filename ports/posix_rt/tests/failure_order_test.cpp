@@ -71,6 +71,11 @@ void close_by_plan(void*) noexcept {
     ++g_shared->closings;
 }
 
+void hang_by_plan(void*) noexcept {
+    g_shared->is_in_handler = true;
+    sleep_for(Duration{60'000'000'000});
+}
+
 void close_slowly_by_plan(void*) noexcept {
     g_shared->is_in_handler = true;
     sleep_for(200_ms);
@@ -171,6 +176,15 @@ TEST_F(FailureOrderTest, CrashOfASecondThreadWaitsForTheCrashOfTheFirst) {
     EXPECT_TRUE(WIFSIGNALED(status));
     EXPECT_EQ(WTERMSIG(status), SIGSEGV) << "of the first";
     EXPECT_EQ(g_shared->closings, 1);
+}
+
+TEST_F(FailureOrderTest, CrashOfASecondThreadEndsTheProcessIfTheCrashOfTheFirstHangs) {
+    verifies("SWR-PRT-045", Technique::kFaultInjection, Polarity::kViolation);
+    const FrameClock clock = FrameClock::starting_in(0_ms);
+    const int status = run_both(&crash, [] { static_cast<void>(::raise(SIGBUS)); }, nullptr, &hang_by_plan);
+    EXPECT_TRUE(WIFSIGNALED(status)) << "the hang would end by itself after a minute";
+    EXPECT_EQ(WTERMSIG(status), SIGBUS) << "of the second";
+    EXPECT_GE(clock.get_now(), Instant{0} + 1000_ms);
 }
 
 TEST_F(FailureOrderTest, HandlerThatHangsDelaysTheEndByOneSecondOnly) {

@@ -50,6 +50,8 @@ TEST(FrameClockTest, InstantsAreThoseOfTheMonotonicClock) {
         EXPECT_LT(time.tv_nsec, 1'000'000'000);
     }
     EXPECT_EQ(to_ns(sut.to_timespec(Instant{-epoch - 1})), 0) << "before the clock's own zero";
+    EXPECT_EQ(to_ns(sut.to_timespec(Instant{-epoch})), 0);
+    EXPECT_EQ(to_ns(sut.to_timespec(Instant{-epoch + 1})), 1);
 }
 
 TEST(FrameClockTest, AnInterruptedSleepDoesNotEndEarly) {
@@ -92,6 +94,8 @@ constexpr Instant kFirst{std::numeric_limits<std::int64_t>::min()};
 
 TEST(FrameClockTest, SumsStayWithinTheRangeOnBothSidesOfItsEnds) {
     verifies("SWR-PRT-044", Technique::kBoundaryValues);
+    EXPECT_EQ(add_saturating(Instant{5}, Duration{-1}), Instant{4});
+    EXPECT_EQ(add_saturating(Instant{-5}, Duration{1}), Instant{-4});
     EXPECT_EQ(add_saturating(kLast - Duration{1}, Duration{1}), kLast);
     EXPECT_EQ(add_saturating(kLast, Duration{1}), kLast);
     EXPECT_EQ(add_saturating(kLast, Duration{kLast.ns}), kLast);

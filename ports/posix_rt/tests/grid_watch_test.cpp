@@ -239,6 +239,8 @@ TEST_F(GridWatchTest, AMissingTimerExpiryClosesTheOutputsWithoutTheRunner) {
 
 TEST_F(GridWatchTest, AWatchThatIsOpenedAgainWatches) {
     verifies("SWR-PRT-031", Technique::kStateTransition, Polarity::kViolation);
+    EXPECT_EQ(sut_.get_look_count(), 0U);
+    EXPECT_FALSE(sut_.is_latched());
     ASSERT_EQ(sut_.open(), Status::kOk);
     sut_.close();
     ASSERT_EQ(sut_.open(), Status::kOk);
@@ -354,6 +356,13 @@ TEST_F(GridWatchTest, ARunInTimeAndADeliberateEndAreNotReported) {
     sut.close();
     EXPECT_EQ(sut.open(), Status::kOk) << "again";
     sut.close();
+}
+
+TEST(GridWatchRightsTest, AWatchNeedsOutputsToClose) {
+    verifies("SWR-PRT-033", Technique::kBoundaryValues, Polarity::kViolation);
+    const FrameClock clock = FrameClock::starting_in(0_ms);
+    EXPECT_CHECK_FAILS((GridWatch{{}, clock, get_raw_clock(), kLimits, {nullptr, nullptr}, {}}),
+                       "grid_watch.cpp", 3);
 }
 
 TEST(GridWatchRightsTest, ItsThreadGetsItsPriority) {

@@ -6,10 +6,13 @@
 #include "mamori/ports/posix_rt/guarded_host.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <sys/time.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <limits>
 #include <string>
@@ -19,8 +22,10 @@
 #include "mamori/kernel/run/executive.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/core_runner.hpp"
+#include "mamori/ports/posix_rt/crash_place.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
+#include "support/fake_clock.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -176,6 +181,114 @@ TEST_F(GuardedHostTest, ThreadsThatAreOpenAreNotOpenedAgain) {
     EXPECT_EQ(host_.open(), Status::kOk);
 }
 
+/// One window whose thread notes on a signal where it is.
+class WaitingThreadTest : public ::testing::Test {
+  protected:
+    static void note(int) {
+        place_ = get_crash_place();
+        ++noted_;
+    }
+    static void run_step(void*, std::size_t, std::size_t) noexcept {
+        thread_ = ::gettid();
+        stack_t stack{};
+        static_cast<void>(::sigaltstack(nullptr, &stack));
+        has_crash_stack_ = stack.ss_flags != SS_DISABLE;
+    }
+    std::size_t run_window(Instant deadline) {
+        return host_.run_within({&run_step, nullptr, 0U, 0U, 0U, 1U, WindowHost::Pass::kExecute}, deadline);
+    }
+
+    static inline std::atomic<int> noted_{0};
+    static inline CrashPlace place_{};
+    static inline std::atomic<pid_t> thread_{0};
+    static inline std::atomic<bool> has_crash_stack_{false};
+    const FrameClock clock_ = FrameClock::starting_in(0_ms);
+    std::array<WindowThread, 1U> threads_;
+    GuardedHost host_{threads_, clock_, {}};
+};
+
+TEST_F(WaitingThreadTest, ASignalDoesNotEndTheWaitAndFindsNoComponent) {
+    verifies("SWR-PRT-003", Technique::kFaultInjection, Polarity::kViolation);
+    struct sigaction action{};
+    struct sigaction before{};
+    action.sa_handler = &note;  // without SA_RESTART: the wait ends early
+    ASSERT_EQ(sigaction(SIGUSR1, &action, &before), 0);
+    ASSERT_EQ(host_.open(), Status::kOk);
+    for (int i = 1; i <= 3; ++i) {
+        ASSERT_EQ(run_window(clock_.get_now() + 600_s), 1U);
+        ASSERT_EQ(::syscall(SYS_tgkill, ::getpid(), thread_.load(), SIGUSR1), 0);
+        while (noted_ < i) {
+            std::this_thread::yield();
+        }
+        EXPECT_EQ(place_.window, CrashPlace::kNone);
+        EXPECT_EQ(place_.component, CrashPlace::kNone);
+    }
+    EXPECT_EQ(host_.close(), Status::kOk);
+    ASSERT_EQ(sigaction(SIGUSR1, &before, nullptr), 0);
+}
+
+TEST_F(WaitingThreadTest, AThreadThatIsStartedAgainHasACrashStackAgain) {
+    verifies("SWR-PRT-026", Technique::kStateTransition);
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_EQ(host_.open(), Status::kOk);
+        has_crash_stack_ = false;
+        ASSERT_EQ(run_window(clock_.get_now() + 600_s), 1U);
+        EXPECT_TRUE(has_crash_stack_) << i;
+        ASSERT_EQ(host_.close(), Status::kOk);
+    }
+}
+
+TEST_F(WaitingThreadTest, WorkNeedsAnOpenThreadThatHasReturned) {
+    verifies("SWR-PRT-003", Technique::kInterface, Polarity::kViolation);
+    EXPECT_CHECK_FAILS(static_cast<void>(run_window(Instant{})), "guarded_host.cpp", 5);
+    EXPECT_CHECK_FAILS(
+        {
+            static_cast<void>(host_.open());
+            const auto hang = [](void*, std::size_t, std::size_t) noexcept {
+                for (;;) {
+                    static_cast<void>(::pause());
+                }
+            };
+            static_cast<void>(
+                host_.run_within({hang, nullptr, 0U, 0U, 0U, 1U, WindowHost::Pass::kExecute}, Instant{}));
+            static_cast<void>(run_window(Instant{}));
+        },
+        "guarded_host.cpp", 5);
+}
+
+TEST_F(WaitingThreadTest, AStepThatEndsAtTheDeadlineIsInTime) {
+    verifies("SWR-PRT-003", Technique::kBoundaryValues);
+    FakeClock source{0};
+    source.monotonic_offset_ns = get_monotonic_clock().read_ns() + 600'000'000'000;  // no deadline passes
+    const FrameClock clock = FrameClock::starting_in(0_ms, source);
+    source.now_ns = 5'000;
+    GuardedHost host{threads_, clock, {}};
+    ASSERT_EQ(host.open(), Status::kOk);
+    const WindowHost::Work work{&run_step, nullptr, 0U, 0U, 0U, 1U, WindowHost::Pass::kExecute};
+    EXPECT_EQ(host.run_within(work, Instant{5'000}), 1U);
+    EXPECT_EQ(host.run_within(work, Instant{4'999}), 0U);
+    EXPECT_EQ(host.close(), Status::kOk);
+}
+
+TEST_F(WaitingThreadTest, RightsAreThoseOfTheThreadsOfTheHost) {
+    verifies("SWR-PRT-002", Technique::kFaultInjection, Polarity::kViolation);
+    GuardedHost elsewhere{threads_, clock_, {0, 100'000}};
+    ASSERT_EQ(elsewhere.open(), Status::kOk);
+    EXPECT_TRUE(elsewhere.get_priority_right().is_granted);
+    EXPECT_FALSE(elsewhere.get_processor_right().is_granted);
+    EXPECT_EQ(elsewhere.get_processor_right().system_error, EINVAL);
+    ASSERT_EQ(elsewhere.close(), Status::kOk);
+
+    const std::array<WindowRow, 1U> rows{};
+    GuardedHost without{threads_, rows, 1U, clock_, {0, 100'000}};
+    ASSERT_EQ(without.open(), Status::kOk) << "no window is on its core";
+    for (const Right& right : {without.get_priority_right(), without.get_processor_right()}) {
+        EXPECT_TRUE(right.is_granted);
+        EXPECT_EQ(right.system_error, 0);
+    }
+    EXPECT_EQ(without.close(), Status::kOk);
+}
+
 class CoreRunnerTest : public ::testing::Test {
   protected:
     Actor a_{"a"};
@@ -215,6 +328,26 @@ TEST(CoreRunnerMarginTest, ATableOfTwoCoresNeedsAPublicationMargin) {
     EXPECT_CHECK_FAILS(run_once(Duration{1}, 1U, 0U), "core_runner.cpp", 1);
     EXPECT_EQ(run_once(Duration{1}, 1U), 0U) << "stopped, not rejected";
     EXPECT_EQ(run_once(0_ms, 0U), 0U);
+}
+
+TEST(CoreRunnerMarginTest, AConnectionWithoutItsWindowsLeavesNoCore) {
+    verifies("SWR-PRT-047", Technique::kBoundaryValues);
+    std::array<WindowRow, 2U> windows{};
+    windows[1U].core = 1U;
+    std::array<ConnectionRow, 1U> connections{};
+    const auto has_margin = [&](std::size_t source, std::size_t sink) {
+        connections[0U].source_window = source;
+        connections[0U].sink_window = sink;
+        SystemView view{};
+        view.windows = windows;
+        view.connections = connections;
+        return has_publication_margin(view);
+    };
+    EXPECT_TRUE(has_margin(kNoIndex, 1U));
+    EXPECT_TRUE(has_margin(1U, kNoIndex));
+    EXPECT_TRUE(has_margin(kNoIndex, kNoIndex));
+    EXPECT_TRUE(has_margin(1U, 1U));
+    EXPECT_FALSE(has_margin(0U, 1U));
 }
 
 TEST_F(CoreRunnerTest, EachWindowOpensAtItsPlaceOnTheGridHoweverLateTheMachineIs) {
@@ -404,6 +537,76 @@ class InstantHost final : public WindowHost {
   private:
     const FrameClock& clock_;
 };
+
+TEST_F(CoreRunnerTest, TheFirstFrameBeginsAtTheStatedInstantOrLater) {
+    verifies("SWR-PRT-005", Technique::kBoundaryValues);
+    constexpr std::int64_t kFrame = 20'000'000;
+    JumpingClock source;
+    const FrameClock clock = FrameClock::starting_in(0_ms, source);
+    InstantHost host{clock};
+    for (const auto [from, first] : {std::array<std::int64_t, 2U>{-1, 0},
+                                     {0, 0},
+                                     {1, kFrame},
+                                     {2, kFrame},
+                                     {kFrame - 1, kFrame},
+                                     {kFrame, kFrame},
+                                     {kFrame + 1, 2 * kFrame},
+                                     {kFrame + 2, 2 * kFrame}}) {
+        CoreRunner sut{executive_, host, clock};
+        Counter counter;
+        sut.set_observer(&counter);
+        sut.run(1U, Instant{from});
+        EXPECT_EQ(counter.count, 2) << from;
+        EXPECT_EQ(counter.last_release, Instant{first} + 10_ms) << from;
+    }
+}
+
+/// A clock whose sleeps end late, each by another time.
+class LateClock final : public TimeSource {
+  public:
+    std::int64_t read_ns() const noexcept override { return now_ns; }
+    void wait_until(std::int64_t ns) const noexcept override {
+        constexpr std::array<std::int64_t, 4U> kLate{3, 7, 5, 7};
+        now_ns = ns + offset_ns + kLate[sleeps % kLate.size()];
+        ++sleeps;
+    }
+    std::int64_t to_monotonic(std::int64_t ns) const noexcept override { return ns; }
+
+    std::int64_t offset_ns{0};
+    mutable std::int64_t now_ns{0};
+    mutable std::size_t sleeps{0U};
+};
+
+/// Does all steps of a window except the last one.
+class FaultyHost final : public WindowHost {
+  public:
+    explicit FaultyHost(const FrameClock& clock) noexcept : clock_(clock) {}
+    Instant get_now() const noexcept override { return clock_.get_now(); }
+    Instant get_step_end() const noexcept override { return clock_.get_now(); }
+    std::size_t run_within(const Work& work, Instant) noexcept override { return work.count - 1U; }
+    bool has_returned(std::size_t) const noexcept override { return true; }
+
+  private:
+    const FrameClock& clock_;
+};
+
+TEST_F(CoreRunnerTest, OutcomesAndTheWorstLatenessAreCounted) {
+    verifies("SWR-PRT-005", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(executive_.initialize(), Status::kOk);
+    ASSERT_EQ(executive_.start(), Status::kOk);
+    for (const bool is_missed : {false, true}) {
+        LateClock source;
+        source.offset_ns = is_missed ? 15'000'000 : 0;  // after the budget, and after the next release
+        const FrameClock clock = FrameClock::starting_in(Duration{1}, source);
+        FaultyHost host{clock};
+        CoreRunner sut{executive_, host, clock};
+        sut.run(2U);
+        EXPECT_EQ(sut.get_counts().opened, 4U);
+        EXPECT_EQ(sut.get_counts().overran, is_missed ? 2U : 4U) << "the other windows are less late";
+        EXPECT_EQ(sut.get_counts().missed, is_missed ? 2U : 0U);
+        EXPECT_EQ(sut.get_counts().worst_lateness, Duration{source.offset_ns + 7});
+    }
+}
 
 TEST_F(CoreRunnerTest, AtTheEndOfTheTimeLineTheRunEndsOneFrameBeforeIt) {
     verifies("SWR-PRT-043", Technique::kBoundaryValues, Polarity::kViolation);

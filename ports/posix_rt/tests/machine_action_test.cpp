@@ -9,16 +9,14 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/kernel/system/system.hpp"
-#include "mamori/ports/posix_rt/crash_note.hpp"
 #include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/machine_records.hpp"
 #include "support/patient_options.hpp"
 
 namespace mamori::ports::posix_rt {
@@ -37,6 +35,7 @@ std::atomic<std::int64_t> g_slow_ns{0};
 std::atomic<std::int64_t> g_began_ns{0};
 std::atomic<std::int64_t> g_closed_ns{0};
 std::atomic<int> g_left{0};
+std::atomic<int> g_signal{0};  ///< that the action sends to this process
 
 std::int64_t read_ns() noexcept {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
@@ -70,6 +69,9 @@ class Hanger final : public Component {
             return Status::kOk;
         }
         g_began_ns = read_ns();
+        if (g_signal != 0) {
+            static_cast<void>(::kill(::getpid(), g_signal));
+        }
         while (!g_may_return || read_ns() - g_began_ns < g_slow_ns) {
             std::this_thread::yield();
         }
@@ -131,7 +133,7 @@ class MachineActionTest : public ::testing::Test {
     template <typename Sut>
     static Status run_again(Sut& sut) {
         Status status = sut.run(1U);
-        for (int i = 0; i < 1000 && status == Status::kPreconditionNotMet; ++i) {
+        for (int i = 0; i < 1000 && sut.get_report().failed_step == MachineStep::kWindowThreads; ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds{1});
             status = sut.run(1U);
         }
@@ -242,13 +244,7 @@ TEST_F(MachineActionTest, SignalDuringAHangClosesTheOutputsAtOnce) {
     verifies("SWR-PRT-085", Technique::kErrorGuessing, Polarity::kViolation);
     static Machine<kIsStopped> sut{make_action_options()};
     g_faulty = ComponentAction::kStartup;
-    g_began_ns = 0;
-    std::thread sender{[] {
-        while (g_began_ns == 0) {
-            std::this_thread::yield();
-        }
-        static_cast<void>(::kill(::getpid(), SIGTERM));
-    }};
+    g_signal = SIGTERM;
     struct sigaction own{};
     struct sigaction before{};
     own.sa_handler = [](int) {};
@@ -256,7 +252,7 @@ TEST_F(MachineActionTest, SignalDuringAHangClosesTheOutputsAtOnce) {
 
     EXPECT_EQ(sut.run(1U), Status::kError);
 
-    sender.join();
+    g_signal = 0;
     EXPECT_EQ(sigaction(SIGTERM, &before, nullptr), 0);
     EXPECT_EQ(sut.get_report().signal, SIGTERM);
     EXPECT_STREQ(sut.get_report().late_action, "on_startup");
@@ -277,18 +273,11 @@ TEST_F(MachineActionTest, RecorderNamesComponentAndAction) {
     EXPECT_EQ(sut.run(1U), Status::kError);
     let_return();
 
-    std::ifstream file{path, std::ios::binary};
-    std::vector<char> bytes{std::istreambuf_iterator<char>{file}, {}};
-    FlightReader reader;
-    const Span<std::byte> region =
-        get_recorder_region({reinterpret_cast<std::byte*>(bytes.data()), bytes.size()});
-    ASSERT_EQ(reader.open({region.data(), region.size()}), Status::kOk);
     std::vector<std::int64_t> arguments;
-    for (std::size_t slot = 0U; slot < reader.get_capacity(); ++slot) {
-        FlightRecord record{};
-        if (reader.read(slot, record) == SlotState::kWhole && record.source == kMachineSource &&
-            record.code == static_cast<std::uint16_t>(MachineEvent::kActionOverrun)) {
+    for (const FlightRecord& record : read_machine_records(path)) {
+        if (record.code == static_cast<std::uint16_t>(MachineEvent::kActionOverrun)) {
             arguments.push_back(record.argument);
+            EXPECT_EQ(record.severity, Severity::kFault);
         }
     }
     const auto action = static_cast<std::int64_t>(ComponentAction::kStartup);

@@ -80,6 +80,10 @@ TEST(MachineOptionsTest, OptionOutsideItsRangeIsRefused) {
     options = make_options();
     options.watchdog_timeout = 29_ms;  // lead, two frames and two polls
     EXPECT_EQ(run(options), Status::kBadParameter);
+    options.watchdog_timeout = 29_ms + Duration{1};
+    EXPECT_EQ(run(options), Status::kBadParameter);
+    options.watchdog_timeout = Duration{0};
+    EXPECT_EQ(run(options), Status::kBadParameter);
     options.watchdog_timeout = Duration{std::numeric_limits<std::int64_t>::min()};
     EXPECT_EQ(run(options), Status::kBadParameter);
     options = make_options();
@@ -111,6 +115,12 @@ TEST(MachineOptionsTest, OptionAtTheEndOfItsRangeIsNotRefused) {
     options.recorder = path.c_str();
     options.recorder_capacity = 1U;
     EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
+    options = make_options();
+    options.watchdog_timeout = 29_ms + Duration{2};
+    EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
+    options.lead = Duration{1};
+    options.watch = {Duration{0}, Duration{1}, {Duration{1}, 1}};
+    EXPECT_EQ(run(options), MachineStep::kCrashHandlers);
     static_cast<void>(std::remove(path.c_str()));
 }
 
@@ -141,6 +151,30 @@ TEST(MachineOptionsTest, EachCoreOrNoneHasAProcessor) {
     EXPECT_EQ(run(2U), MachineStep::kCrashHandlers);
 }
 
+TEST(MachineOptionsTest, DefaultsAreThoseOfTheManual) {
+    verifies("SWR-PRT-070", Technique::kInterface, Polarity::kNominal);
+    const MachineOptions options;
+    EXPECT_EQ(options.outputs.close, nullptr);
+    EXPECT_EQ(options.priority, 80);
+    EXPECT_TRUE(options.processors.empty());
+    EXPECT_EQ(options.window_stack, 262'144U);
+    EXPECT_EQ(options.runner_stack, 1'048'576U);
+    EXPECT_EQ(options.lead, 50_ms);
+    EXPECT_EQ(options.watch.lateness, 100_ms);
+    EXPECT_EQ(options.watch.period, 10_ms);
+    EXPECT_EQ(options.watch.rate.span, 1_s);
+    EXPECT_EQ(options.watch.rate.limit_ppm, 5000);
+    EXPECT_EQ(options.watchdog_timeout, 1_s);
+    EXPECT_EQ(options.recorder_capacity, 1024U);
+    EXPECT_EQ(options.device, nullptr);
+    EXPECT_EQ(options.recorder, nullptr);
+    EXPECT_EQ(options.event_log, nullptr);
+    EXPECT_EQ(MachineOptions::kPriorityStep, 5);
+    EXPECT_EQ(MachineOptions::kBackgroundPriorityMin, 16);
+    EXPECT_EQ(kThreadStackMin, 32'768U);
+    EXPECT_EQ(kThreadStackGuard, 65'536U);
+}
+
 TEST(MachineOptionsTest, PrioritiesLeaveRoomForTheDistancesOfTheManual) {
     verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kNominal);
     EXPECT_EQ(MachineOptions::kPriorityMin, 1 + 5) << "windows are 5 below";
@@ -156,6 +190,8 @@ TEST(MachineOptionsTest, RunThatIsStoppedBeforeItsFirstFrameMeasuresNothing) {
     EXPECT_EQ(sut.get_report().openings.opened, 0U);
     EXPECT_EQ(sut.get_report().longest_sample, Duration{0});
     EXPECT_EQ(sut.get_report().longest_apply, Duration{0});
+    EXPECT_TRUE(sut.get_report().processor.is_granted);
+    EXPECT_EQ(sut.get_report().processor.system_error, 0);
 }
 
 TEST(MachineOptionsTest, RecorderFileThatCannotBeOpenedEndsTheRunBeforeItsStart) {
@@ -186,8 +222,10 @@ TEST(MachineOptionsTest, EventLogOfAnotherRecorderEndsTheRunAndReleasesTheFile) 
     options.event_log = &log;
     const auto sut = std::make_unique<Machine<kRefused>>(options);
 
-    EXPECT_EQ(sut->run(1U), Status::kPreconditionNotMet);
-    EXPECT_EQ(sut->get_report().failed_step, MachineStep::kRecorder);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(sut->run(1U), Status::kPreconditionNotMet);
+        EXPECT_EQ(sut->get_report().failed_step, MachineStep::kRecorder);
+    }
     MappedFile file;
     EXPECT_EQ(file.open(path.c_str(), calc_recorder_file_size(4U)), Status::kOk);
     static_cast<void>(std::remove(path.c_str()));
@@ -211,6 +249,7 @@ TEST(MachineOptionsTest, EachStepHasASentence) {
     std::vector<std::string> sentences;
     for (int step = 0; step <= static_cast<int>(MachineStep::kStop); ++step) {
         sentences.emplace_back(describe(static_cast<MachineStep>(step)));
+        EXPECT_FALSE(sentences.back().empty()) << step;
         for (std::size_t i = 0U; i + 1U < sentences.size(); ++i) {
             EXPECT_NE(sentences[i], sentences.back());
         }

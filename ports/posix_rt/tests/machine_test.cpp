@@ -16,10 +16,10 @@
 #include <thread>
 #include <vector>
 
-#include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/ports/posix_rt/crash_note.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "support/machine_records.hpp"
 #include "support/patient_options.hpp"
 
 namespace mamori::ports::posix_rt {
@@ -85,10 +85,26 @@ MAMORI_TEST_SYSTEM(kRefused);
 MAMORI_TEST_SYSTEM(kFailsAtStart);
 MAMORI_TEST_SYSTEM(kFailsAtStop);
 MAMORI_TEST_SYSTEM(kHangs);
+MAMORI_TEST_SYSTEM(kReturnsLate);
 MAMORI_TEST_SYSTEM(kExpires);
 MAMORI_TEST_SYSTEM(kCrashes);
 MAMORI_TEST_SYSTEM(kWatched);
 MAMORI_TEST_SYSTEM(kRecorded);
+
+class Actor final : public Component {
+  public:
+    constexpr Actor() noexcept : Component("actor") {}
+    void (*act)(){nullptr};
+    Status on_execute(ContextHandle) noexcept override {
+        act();
+        return Status::kOk;
+    }
+};
+Actor g_stopping;
+Counter g_following;
+constexpr auto kTwoWindows =
+    system(frame(40_ms), window("stopping", 0_ms, 15_ms, budget(15_ms), run(g_stopping)),
+           window("following", 20_ms, 15_ms, budget(15_ms), run(g_following)));
 
 Counter g_near;
 Adder g_far;
@@ -107,6 +123,9 @@ struct SpyDevices final : Devices {
         sampled.push_back(frame);
         starts.push_back(start.ns);
         thread = std::this_thread::get_id();
+        stack_t stack{};
+        static_cast<void>(::sigaltstack(nullptr, &stack));
+        has_crash_stack = stack.ss_flags != SS_DISABLE;
         std::this_thread::sleep_for(std::chrono::microseconds{200});
     }
     void apply(std::uint64_t frame, Instant, Duration) noexcept override {
@@ -117,6 +136,7 @@ struct SpyDevices final : Devices {
     std::vector<std::uint64_t> applied;
     std::vector<std::int64_t> starts;
     std::thread::id thread{};
+    bool has_crash_stack{false};
 };
 
 TEST(MachineTest, DevicesAreCalledOncePerFrameAndMeasuredAndARunContinuesTheTimeLine) {
@@ -130,8 +150,11 @@ TEST(MachineTest, DevicesAreCalledOncePerFrameAndMeasuredAndARunContinuesTheTime
     EXPECT_EQ(devices.applied, devices.sampled);
     EXPECT_EQ(devices.starts, (std::vector<std::int64_t>{0, 10'000'000, 20'000'000}));
     EXPECT_NE(devices.thread, std::this_thread::get_id());
+    EXPECT_TRUE(devices.has_crash_stack);
     const MachineReport& report = sut.get_report();
     EXPECT_EQ(report.openings.opened, 3U);
+    EXPECT_GT(report.openings.worst_lateness, Duration{0});
+    EXPECT_LT(report.openings.worst_lateness, 3600_s);
     EXPECT_GE(report.longest_sample.ns, 200'000);
     EXPECT_GE(report.longest_apply.ns, 100'000);
     EXPECT_EQ(g_counter_kRuns.out.get_published(),
@@ -322,9 +345,9 @@ TEST(MachineTest, WorkThatHangsAtTheEndIsReportedAndTheNextRunIsRefusedUntilItRe
     static Machine<kHangs> sut{make_options()};
     g_counter_kHangs.is_to_hang = true;
 
-    EXPECT_EQ(sut.run(1U), Status::kPreconditionNotMet);
+    EXPECT_EQ(sut.run(3U), Status::kPreconditionNotMet);
     EXPECT_EQ(sut.get_report().failed_step, MachineStep::kStop);
-    EXPECT_EQ(sut.get_report().openings.overran + sut.get_report().openings.missed, 1U);
+    EXPECT_EQ(sut.get_report().openings.overran + sut.get_report().openings.missed, 3U);
     EXPECT_EQ(sut.run(1U), Status::kPreconditionNotMet);
     EXPECT_EQ(sut.get_report().failed_step, MachineStep::kWindowThreads);
 
@@ -335,6 +358,44 @@ TEST(MachineTest, WorkThatHangsAtTheEndIsReportedAndTheNextRunIsRefusedUntilItRe
         status = sut.run(1U);
     }
     EXPECT_EQ(status, Status::kOk);
+}
+
+TEST(MachineTest, WorkThatReturnsSoonAfterTheEndIsNoFailure) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kNominal);
+    static Machine<kReturnsLate> sut{make_options()};
+    Counter& counter = g_counter_kReturnsLate;
+    bool is_shown = false;
+    // Again if the host stalled: a window was missed, or a second was over.
+    for (int i = 0; i < 10 && !is_shown; ++i) {
+        const std::uint64_t before = sut.get_report().openings.overran;
+        std::atomic<bool> has_ended{false};
+        counter.last_start_ns = -1;
+        counter.is_to_hang = true;
+        std::thread releaser{[&] {
+            while (counter.last_start_ns < 0 && !has_ended) {
+                std::this_thread::yield();
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds{100});
+            counter.is_to_hang = false;
+        }};
+        const Status status = sut.run(1U);
+        has_ended = true;
+        releaser.join();
+        is_shown = status == Status::kOk && sut.get_report().openings.overran > before;
+    }
+    EXPECT_TRUE(is_shown);
+}
+
+TEST(MachineTest, AStopIsAtTheEndOfTheFrame) {
+    verifies("SWR-PRT-070", Technique::kBoundaryValues, Polarity::kNominal);
+    static Machine<kTwoWindows> sut{make_options()};
+    static const auto request = [] { sut.request_stop(); };
+    g_stopping.act = [] { request(); };
+
+    ASSERT_EQ(sut.run(), Status::kOk);
+
+    EXPECT_GE(sut.get_report().openings.opened, 2U);
+    EXPECT_EQ(sut.get_report().openings.opened % 2U, 0U) << "the second window of the frame opens, too";
 }
 
 TEST(MachineTest, FindingOfTheScheduleWatchClosesTheOutputs) {
@@ -413,20 +474,9 @@ TEST(MachineTest, RecorderHasStartStopAndSignal) {
 
     MappedFile again;  // the machine has the file: another owner is refused
     EXPECT_EQ(again.open(path.c_str(), calc_recorder_file_size(16U)), Status::kError);
-    std::FILE* const file = std::fopen(path.c_str(), "rb");
-    ASSERT_NE(file, nullptr);
-    std::vector<std::byte> bytes(calc_recorder_file_size(16U));
-    EXPECT_EQ(std::fread(bytes.data(), 1U, bytes.size(), file), bytes.size());
-    std::fclose(file);
-    FlightReader reader;
-    const Span<std::byte> region = get_recorder_region({bytes.data(), bytes.size()});
-    ASSERT_EQ(reader.open({region.data(), region.size()}), Status::kOk);
     std::vector<int> codes;
-    for (std::size_t slot = 0U; slot < reader.get_capacity(); ++slot) {
-        FlightRecord record{};
-        if (reader.read(slot, record) == SlotState::kWhole && record.source == kMachineSource) {
-            codes.push_back(record.code);
-        }
+    for (const FlightRecord& record : read_machine_records(path)) {
+        codes.push_back(record.code);
     }
     EXPECT_EQ(codes, (std::vector<int>{1, 2, 3, 5}));
     static_cast<void>(std::remove(path.c_str()));

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "mamori/trace/verifies.hpp"
@@ -159,6 +160,18 @@ TEST_F(MappedFileTest, ArgumentsOutOfRangeAreRejected) {
     sut_.close();
     EXPECT_FALSE(fs::exists(path_));
     EXPECT_EQ(sut_.open(path_.c_str(), 1U), Status::kOk);
+}
+
+TEST_F(MappedFileTest, AFileOfOneByteAndNoneAboveTheLimitOfLinuxIsOpened) {
+    verifies("SWR-REC-010", Technique::kBoundaryValues);
+    constexpr auto kLast = static_cast<std::size_t>(std::numeric_limits<off_t>::max());
+    EXPECT_EQ(sut_.open(path_.c_str(), kLast + 1U), Status::kBadParameter);
+    EXPECT_FALSE(fs::exists(path_));
+    EXPECT_EQ(sut_.open(path_.c_str(), 1U), Status::kOk);
+    EXPECT_EQ(sut_.get_system_error(), 0);
+    EXPECT_EQ(sut_.get_region().size(), 1U);
+    sut_.close();
+    EXPECT_EQ(sut_.get_region().size(), 0U);
 }
 
 TEST_F(MappedFileTest, EachErrorHasAMessage) {

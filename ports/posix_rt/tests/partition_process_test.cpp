@@ -6,8 +6,11 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/capability.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +18,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -198,6 +203,12 @@ TEST_F(PartitionProcessTest, AnOrderOutOfRangeStartsNothing) {
     order.limits.processor = -2;
     refuse(order);
     order.limits.processor = ThreadPlace::kAnyProcessor;
+    order.output = -2;
+    refuse(order);
+    order.output = kNoStream;
+    order.errors = -2;
+    refuse(order);
+    order.errors = kNoStream;
     EXPECT_EQ(sut_.start(order), Status::kOk);
     EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
 }
@@ -210,9 +221,57 @@ TEST_F(PartitionProcessTest, AnOrderAtItsLimitsIsStarted) {
     descriptors.fill(line_.get_writing_end());
     errno = EINTR;  // of an earlier call
 
-    EXPECT_EQ(sut_.start({"/bin/true", arguments, descriptors, nullptr, {}}), Status::kOk);
+    for (const int niceness : {0, 19}) {
+        PartitionOrder order{"/bin/true", arguments, descriptors, nullptr, {}};
+        order.limits.niceness = niceness;
+        EXPECT_EQ(sut_.start(order), Status::kOk);
+        EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+        EXPECT_EQ(sut_.get_exit_status(), 0);
+    }
+}
+
+TEST_F(PartitionProcessTest, TheEarliestEpochIsHandedOver) {
+    verifies("SWR-PRT-015", Technique::kBoundaryValues);
+    const FrameClock clock = FrameClock::at_epoch(std::numeric_limits<std::int64_t>::min());
+    order_.clock = &clock;
+    EXPECT_EQ(run("echo -n $MAMORI_EPOCH_NS >&3"), "-9223372036854775808");
+}
+
+TEST_F(PartitionProcessTest, AnEnvironmentIsInheritedUpToTheLimit) {
+    verifies("SWR-PRT-015", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([this] {
+                  ASSERT_EQ(::clearenv(), 0);
+                  FrameClock clock = FrameClock::at_epoch(5);
+                  order_.program = "/bin/true";
+                  order_.clock = &clock;
+                  EXPECT_EQ(sut_.start(order_), Status::kOk) << "without an entry";
+                  EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+                  EXPECT_EQ(find_partition_clock(clock), Status::kPreconditionNotMet);
+                  for (int i = 0; i < 510; ++i) {
+                      ASSERT_EQ(::setenv(("E" + std::to_string(i)).c_str(), "x", 1), 0);
+                  }
+                  EXPECT_EQ(sut_.start(order_), Status::kOk) << "and the epoch";
+                  EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+                  ASSERT_EQ(::setenv("LAST", "x", 1), 0);
+                  EXPECT_EQ(sut_.start(order_), Status::kOutOfResources);
+                  EXPECT_EQ(sut_.get_error(), PartitionError::kTooManyStrings);
+              }),
+              0);
+}
+
+TEST_F(PartitionProcessTest, AStartLeavesTheSignalsOfTheCallingThread) {
+    verifies("SWR-PRT-015", Technique::kStateTransition);
+    sigset_t blocked{};
+    sigset_t before{};
+    sigset_t after{};
+    ASSERT_EQ(sigemptyset(&blocked) + sigaddset(&blocked, SIGUSR2), 0);
+    ASSERT_EQ(::pthread_sigmask(SIG_SETMASK, &blocked, &before), 0);
+    ASSERT_EQ(start("true"), Status::kOk);
+    ASSERT_EQ(::pthread_sigmask(SIG_SETMASK, &before, &after), 0);
+    for (int signal = 1; signal < NSIG; ++signal) {
+        EXPECT_EQ(sigismember(&after, signal), sigismember(&blocked, signal)) << signal;
+    }
     EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
-    EXPECT_EQ(sut_.get_exit_status(), 0);
 }
 
 TEST_F(PartitionProcessTest, AFailedStartReportsItsCause) {
@@ -282,7 +341,9 @@ TEST_F(PartitionProcessTest, EachCauseHasItsOwnMessage) {
 TEST_F(PartitionProcessTest, ItHasNoPrivilegeThatCouldDelayAWindow) {
     verifies("SWR-PRT-016", Technique::kRequirementsBased, Polarity::kViolation);
     // The maximum privileges and settings of this thread. The partition must have none of them.
-    static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
+    for (const int signal : {SIGHUP, SIGPIPE, NSIG - 1}) {
+        static_cast<void>(std::signal(signal, SIG_IGN));
+    }
     sigset_t blocked;
     sigset_t before;
     ASSERT_EQ(sigemptyset(&blocked) + sigaddset(&blocked, SIGUSR1), 0);
@@ -291,7 +352,9 @@ TEST_F(PartitionProcessTest, ItHasNoPrivilegeThatCouldDelayAWindow) {
     const std::string facts =
         run("cat /proc/self/status /proc/$$/limits >&3; cut -d')' -f2 /proc/$$/stat >&3");
     ASSERT_EQ(::pthread_sigmask(SIG_SETMASK, &before, nullptr), 0);
-    static_cast<void>(std::signal(SIGPIPE, SIG_DFL));
+    for (const int signal : {SIGHUP, SIGPIPE, NSIG - 1}) {
+        static_cast<void>(std::signal(signal, SIG_DFL));
+    }
     EXPECT_EQ(find(facts, "CapEff:"), "0000000000000000");
     EXPECT_EQ(find(facts, "CapPrm:"), "0000000000000000");
     EXPECT_EQ(find(facts, "CapAmb:"), "0000000000000000");
@@ -307,6 +370,30 @@ TEST_F(PartitionProcessTest, ItHasNoPrivilegeThatCouldDelayAWindow) {
     ASSERT_GT(fields.size(), 39U);
     EXPECT_EQ(fields[2U], fields[3U]) << "its group is its session";
     EXPECT_NE(fields[3U], std::to_string(::getsid(0)));
+}
+
+TEST_F(PartitionProcessTest, ItDoesNotInheritTheCapabilitiesOfTheSafetyProcess) {
+    verifies("SWR-PRT-016", Technique::kErrorGuessing, Polarity::kViolation);
+    if (::geteuid() != 0U) {
+        GTEST_SKIP() << "verdict=no-privilege: only root has capabilities that a program could inherit";
+    }
+    EXPECT_EQ(run_in_process([this] {
+                  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+                  std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};
+                  ASSERT_EQ(::syscall(SYS_capget, &header, sets.data()), 0);
+                  for (__user_cap_data_struct& set : sets) {
+                      set.inheritable = set.permitted;
+                  }
+                  ASSERT_EQ(::syscall(SYS_capset, &header, sets.data()), 0);
+                  ASSERT_EQ(::prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_RAISE, CAP_KILL, 0UL, 0UL), 0);
+                  ASSERT_EQ(start("cat /proc/self/status >&3"), Status::kOk);
+                  EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+              }),
+              0);
+    const std::string facts = line_.read_all();
+    for (const char* const set : {"CapInh:", "CapPrm:", "CapEff:", "CapBnd:", "CapAmb:"}) {
+        EXPECT_EQ(find(facts, set), "0000000000000000") << set;
+    }
 }
 
 TEST_F(PartitionProcessTest, ItDoesNotInheritAFixedPriority) {
@@ -348,6 +435,37 @@ TEST_F(PartitionProcessTest, ItHasTheLimitsOfItsOrder) {
     EXPECT_EQ(find(facts, "Cpus_allowed_list:"), std::to_string(last));
     EXPECT_EQ(find(facts, "score"), "1000");
     EXPECT_EQ(find(facts, "nice"), "19");
+}
+
+TEST_F(PartitionProcessTest, ItHasNoHigherLimitThanTheSafetyProcess) {
+    verifies("SWR-PRT-016", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([this] {
+                  const rlimit files{20U, 20U};
+                  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &files), 0);
+                  ASSERT_EQ(start("cat /proc/$$/limits >&3"), Status::kOk) << describe(sut_.get_error());
+                  EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+              }),
+              0);
+    EXPECT_EQ(find(line_.read_all(), "Max open files").substr(0U, 3U), "20 ");
+}
+
+TEST_F(PartitionProcessTest, WithoutAProcessorItMayUseAll) {
+    verifies("SWR-PRT-016", Technique::kEquivalenceClasses);
+    EXPECT_EQ(run_in_process([this] {
+                  cpu_set_t all;
+                  std::memset(&all, 0xFF, sizeof all);
+                  ASSERT_EQ(::sched_setaffinity(0, sizeof all, &all), 0);
+                  cpu_set_t before;
+                  ASSERT_EQ(::sched_getaffinity(0, sizeof before, &before), 0);
+                  ASSERT_TRUE(set_processor(pthread_self(), ::sched_getcpu()).is_granted);
+                  ASSERT_EQ(start("read x <&3"), Status::kOk);
+                  cpu_set_t its{};
+                  ASSERT_EQ(::sched_getaffinity(sut_.get_pid(), sizeof its, &its), 0);
+                  EXPECT_TRUE(CPU_EQUAL(&its, &before));
+                  EXPECT_EQ(sut_.end(), Status::kOk);
+                  EXPECT_EQ(wait_for_end(), PartitionState::kEnded);
+              }),
+              0);
 }
 
 TEST_F(PartitionProcessTest, ItIsNeverAboveTheSafetyProcess) {
@@ -396,6 +514,21 @@ TEST_F(PartitionProcessTest, AHangingPartitionIsRunningAndCanBeEnded) {
     EXPECT_EQ(sut_.get_signal(), SIGKILL);
     EXPECT_EQ(sut_.get_exit_status(), -1);
     EXPECT_EQ(sut_.end(), Status::kPreconditionNotMet);
+}
+
+TEST_F(PartitionProcessTest, AnOwnerClosesNoDescriptorOfOthers) {
+    verifies("SWR-PRT-061", Technique::kErrorGuessing, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([] {
+                  ASSERT_EQ(::dup2(2, 0), 0);
+                  {
+                      PartitionProcess ended;
+                      ASSERT_EQ(ended.start({"/bin/true", {}, {}, nullptr, {}}), Status::kOk);
+                      EXPECT_EQ(posix_rt::wait_for_end(ended), PartitionState::kEnded);
+                      const PartitionProcess unused;
+                  }
+                  EXPECT_NE(::fcntl(0, F_GETFD), -1);
+              }),
+              0);
 }
 
 TEST_F(PartitionProcessTest, APartitionThatHasEndedCanBeStartedAgain) {

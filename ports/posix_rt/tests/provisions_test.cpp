@@ -114,6 +114,52 @@ TEST_F(MemoryLockedTest, WithoutTheFileItIsNotKnown) {
     EXPECT_FALSE(sut_.is_in_effect());
 }
 
+/// Figures in a file of the test, which gets the number of the descriptor of the open file of Linux.
+class MemoryFiguresTest : public ::testing::Test {
+  protected:
+    Status look_at(const std::string& figures, std::uint64_t unlockable = MemoryLocked::kKernelBytes) {
+        MemoryLocked sut{unlockable};
+        const int next = ::dup(2);  // the lowest free number
+        EXPECT_EQ(::close(next), 0);
+        EXPECT_EQ(sut.open(), Status::kOk);
+        const int file = ::memfd_create("figures", 0U);
+        EXPECT_EQ(::write(file, figures.data(), figures.size()), static_cast<ssize_t>(figures.size()));
+        EXPECT_EQ(::dup2(file, next), next);
+        EXPECT_EQ(::close(file), 0);
+        return sut.look();
+    }
+    static std::string make(const std::string& mapped, const std::string& locked,
+                            const std::string& swapped) {
+        return "Name:\tVmSize: 1\nVmPeak:\t9 kB\nVmSize:\t " + mapped + " kB\nVmLck:\t  " + locked +
+               " kB\nVmSwap:\t" + swapped + " kB\n";
+    }
+};
+
+TEST_F(MemoryFiguresTest, AllButTheStatedMemoryIsLocked) {
+    verifies("SWR-AOU-011", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(look_at(make("1964", "1900", "0")), Status::kOk) << "64 KiB of the kernel";
+    EXPECT_EQ(look_at(make("1965", "1900", "0")), Status::kPreconditionNotMet);
+    EXPECT_EQ(look_at(make("1964", "1900", "0"), 65'535U), Status::kPreconditionNotMet);
+    EXPECT_EQ(look_at(make("1023", "0", "0"), 1023U * 1024U), Status::kOk);
+    EXPECT_EQ(look_at(make("1024", "0", "0"), 1023U * 1024U), Status::kPreconditionNotMet);
+    EXPECT_EQ(look_at(make("9876543210", "9876543210", "0"), 0U), Status::kOk);
+    EXPECT_EQ(look_at(make("9876543211", "9876543210", "0"), 0U), Status::kPreconditionNotMet);
+    EXPECT_EQ(look_at("\nVmSize:\t7 kB\nVmLck:\t7 kB\nVmSwap:\t0 kB\n", 0U), Status::kOk) << "from the start";
+    EXPECT_EQ(look_at(make("1964", "1900", "1")), Status::kPreconditionNotMet) << "swapped memory";
+    EXPECT_EQ(look_at(make("1964", "1900", "10")), Status::kPreconditionNotMet);
+}
+
+TEST_F(MemoryFiguresTest, AMissingFigureIsNotKnown) {
+    verifies("SWR-AOU-011", Technique::kEquivalenceClasses, Polarity::kViolation);
+    EXPECT_EQ(look_at("Name:\tx\nVmLck:\t10 kB\nVmSwap:\t0 kB\n"), Status::kUnsupported);
+    EXPECT_EQ(look_at("Name:\tx\nVmSize:\t10 kB\nVmSwap:\t0 kB\n"), Status::kUnsupported);
+    EXPECT_EQ(look_at("Name:\tx\nVmSize:\t10 kB\nVmLck:\t10 kB\n"), Status::kUnsupported);
+    EXPECT_EQ(look_at(make("", "10", "0")), Status::kUnsupported);
+    EXPECT_EQ(look_at(make("10", "", "0")), Status::kUnsupported);
+    EXPECT_EQ(look_at(make("10", "10", "")), Status::kUnsupported);
+    EXPECT_EQ(look_at(""), Status::kUnsupported);
+}
+
 // ---- Timers ----
 
 TEST(PreciseTimersTest, ResultIsThatOfTheClock) {

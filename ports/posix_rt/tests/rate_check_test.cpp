@@ -99,6 +99,34 @@ TEST(RateCheckTest, TheLimitOfASpanCountsEachNanosecond) {
     }
 }
 
+TEST(RateCheckTest, TheUncertaintyCountsForALossLikewise) {
+    verifies("SWR-PRT-032", Technique::kBoundaryValues);
+    RateCheck sut{kLimits};
+    ASSERT_EQ(sut.look(at(0, 0, 2_us)), Rate::kSound);
+    EXPECT_EQ(sut.look(at(1000, -55'000, 3_us)), Rate::kSound);
+    EXPECT_EQ(sut.look(at(1250, -55'001, 3_us)), Rate::kSlow);
+}
+
+TEST(RateCheckTest, AFindingDiscardsTheSpansBeforeIt) {
+    verifies("SWR-PRT-033", Technique::kStateTransition, Polarity::kViolation);
+    RateCheck sut{kLimits};
+    for (const std::int64_t us : {0, 10'000, 20'000}) {
+        ASSERT_EQ(sut.look(at(us, 0)), Rate::kSound);
+    }
+    EXPECT_EQ(sut.get_sound_spans(), 2U);
+    ASSERT_EQ(sut.look(at(20'250, 50'001)), Rate::kFast);
+    EXPECT_EQ(sut.get_sound_spans(), 0U);
+}
+
+TEST(RateCheckTest, ANanosecondHasADirection) {
+    verifies("SWR-PRT-032", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const std::int64_t gained : {1, -1}) {
+        RateCheck sut{{Duration{1000}, 1}};  // less than a nanosecond per span
+        ASSERT_EQ(sut.look({Instant{0}, 0, {}}), Rate::kSound);
+        EXPECT_EQ(sut.look({Instant{500 + gained}, 500, {}}), gained > 0 ? Rate::kFast : Rate::kSlow);
+    }
+}
+
 TEST(RateCheckTest, ALateCallComparesOverTheElapsedTime) {
     verifies("SWR-PRT-032", Technique::kErrorGuessing);
     RateCheck sut{kLimits};

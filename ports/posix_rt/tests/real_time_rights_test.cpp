@@ -13,6 +13,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <thread>
 
 #include "mamori/trace/verifies.hpp"
 
@@ -61,6 +65,15 @@ TEST(RealTimeRightsTest, TheFirstRefusalOfTwoRightsCounts) {
     EXPECT_EQ(combine(granted, no_memory).system_error, ENOMEM);
     EXPECT_EQ(combine(no_permission, granted).system_error, EPERM);
     EXPECT_EQ(combine(no_permission, no_memory).system_error, EPERM);
+}
+
+TEST(RealTimeRightsTest, AThreadMayLeaveIdleIfAnotherOneCould) {
+    verifies("SWR-PRT-042", Technique::kBackToBack);
+    bool could = false;
+    std::thread{[&could] {
+        could = set_idle(pthread_self()).is_granted && set_priority(pthread_self(), 0).is_granted;
+    }}.join();
+    EXPECT_EQ(may_leave_idle(), could);
 }
 
 /// Drops all privileges of this process.
@@ -118,6 +131,20 @@ TEST(RealTimeRightsTest, AMissingProcessorIsDeniedAndNothingChanges) {
     EXPECT_EQ(count_processors(), before);
 }
 
+TEST(RealTimeRightsTest, TheFirstProcessorIsOneLikeAnyOther) {
+    verifies("SWR-PRT-002", Technique::kBoundaryValues);
+    cpu_set_t before;
+    ASSERT_EQ(pthread_getaffinity_np(pthread_self(), sizeof before, &before), 0);
+    if (!CPU_ISSET(0U, &before)) {
+        GTEST_SKIP() << "verdict=not-shown: this process must not use processor 0";
+    }
+    std::thread{[] {
+        EXPECT_TRUE(set_processor(pthread_self(), 0).is_granted);
+        EXPECT_EQ(sched_getcpu(), 0);
+        EXPECT_EQ(count_processors(), 1);
+    }}.join();
+}
+
 TEST(RealTimeRightsTest, APermittedProcessorIsGranted) {
     verifies("SWR-PRT-002");
     cpu_set_t before;
@@ -133,9 +160,29 @@ TEST(RealTimeRightsTest, APermittedProcessorIsGranted) {
     ASSERT_EQ(pthread_setaffinity_np(pthread_self(), sizeof before, &before), 0);
 }
 
+std::uint64_t read_mapped_kib() {
+    std::ifstream file{"/proc/self/status"};
+    std::string word;
+    std::uint64_t mapped = 0U;
+    while (file >> word) {
+        if (word == "VmSize:") {
+            file >> mapped;
+        }
+    }
+    return mapped;
+}
+
 TEST(RealTimeRightsTest, MemoryIsLocked) {
     verifies("SWR-PRT-002");
+    const std::uint64_t before = read_mapped_kib();
     const Right right = lock_memory(64U * 1024U);
+    EXPECT_LT(read_mapped_kib(), before + 32U * 1024U) << "nothing stays allocated";
+    const bool may_lock = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+    void* const room = mmap(nullptr, 64U << 20U, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    EXPECT_EQ(right.is_granted, may_lock && room != MAP_FAILED);
+    if (room != MAP_FAILED) {
+        ASSERT_EQ(munmap(room, 64U << 20U), 0);
+    }
     if (!right.is_granted) {
         ASSERT_TRUE(right.system_error == EPERM || right.system_error == ENOMEM);
         GTEST_SKIP() << "verdict=no-privilege: this host does not let this process lock its memory "

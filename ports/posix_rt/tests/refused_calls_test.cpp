@@ -15,6 +15,8 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -75,7 +77,9 @@ void expect_no_start(const Refusal& refusal, PartitionError error, uid_t user) {
 
 TEST(RefusedCallsTest, APartitionThatCannotBeRestrictedIsNotStarted) {
     verifies("SWR-PRT-015", Technique::kFaultInjection, Polarity::kViolation);
-    const std::array<Refusal, 13U> refusals{{{SYS_setsid},
+    const std::array<Refusal, 15U> refusals{{{SYS_setsid},
+                                             {SYS_capget},
+                                             {SYS_capset},
                                              {SYS_getppid},
                                              {SYS_sched_setscheduler},
                                              {SYS_setpriority},
@@ -133,6 +137,54 @@ TEST(RefusedCallsTest, APartitionIsStartedWithoutWhatItOnlyPrefers) {
                   0)
             << refusal.call;
     }
+}
+
+TEST(RefusedCallsTest, AProcessThatCannotBeCreatedIsReportedWithItsCause) {
+    verifies("SWR-PRT-015", Technique::kFaultInjection, Polarity::kViolation);
+    for (const int call : {SYS_vfork, SYS_socketpair}) {
+        EXPECT_EQ(run_in_process([call] {
+                      refuse({static_cast<std::uint32_t>(call)});
+                      PartitionProcess process;
+                      EXPECT_EQ(start_limited(process, PartitionLimits::kSameUser), Status::kOutOfResources);
+                      EXPECT_EQ(process.get_error(), PartitionError::kNoProcess);
+                      EXPECT_EQ(process.get_system_error(), EPERM);
+                      EXPECT_EQ(process.get_pid(), -1);
+                  }),
+                  0)
+            << call;
+    }
+}
+
+TEST(RefusedCallsTest, MemoryIsNotLockedWithoutRoomForLaterAllocations) {
+    verifies("SWR-PRT-002", Technique::kFaultInjection, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([] {
+                  if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
+                      return;  // no privilege
+                  }
+                  ASSERT_EQ(::munlockall(), 0);
+                  ASSERT_TRUE(refuse_call_with(SYS_mmap, EAGAIN, 1U, 64U << 20U));
+                  const Right right = lock_memory(4096U);
+                  EXPECT_FALSE(right.is_granted);
+                  EXPECT_EQ(right.system_error, ENOMEM);
+                  std::ifstream status{"/proc/self/status"};
+                  const std::string text{std::istreambuf_iterator<char>{status}, {}};
+                  EXPECT_NE(text.find("VmLck:\t       0 kB"), std::string::npos) << text;
+              }),
+              0);
+}
+
+TEST(RefusedCallsTest, ARefusedLockIsReportedWithItsCause) {
+    verifies("SWR-PRT-002", Technique::kFaultInjection, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([] {
+                  ASSERT_TRUE(refuse_call(SYS_mlockall, ENOSYS, false));
+                  if (::mlockall(MCL_CURRENT) == 0) {
+                      return;  // a sanitizer does not call Linux
+                  }
+                  const Right right = lock_memory(4096U);
+                  EXPECT_FALSE(right.is_granted);
+                  EXPECT_EQ(right.system_error, ENOSYS);
+              }),
+              0);
 }
 
 /// The threads of the next calls cannot be created.

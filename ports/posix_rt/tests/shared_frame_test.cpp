@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <random>
@@ -142,6 +143,41 @@ TEST_F(SharedFrameTest, AMemoryOfWrongSizeIsRejectedByBothSides) {
     EXPECT_EQ(writer.get_capacity() + reader.get_capacity(), 0U);
     FrameFacts facts;
     EXPECT_EQ(reader.take({}, facts), FrameOutcome::kNothingNew);
+}
+
+TEST_F(SharedFrameTest, TheSmallestAndTheLargestCapacityAreAccepted) {
+    verifies("SWR-PRT-010", Technique::kBoundaryValues);
+    for (const std::size_t capacity : {std::size_t{1U}, std::size_t{1'048'576U}}) {
+        Region region(calc_frame_region_size(capacity) / sizeof(std::uint64_t));
+        FrameWriter writer;
+        FrameReader reader;
+        ASSERT_EQ(writer.open(view(region), capacity), Status::kOk) << capacity;
+        ASSERT_EQ(reader.open(view_const(region), capacity), Status::kOk) << capacity;
+        Bytes content(capacity, std::byte{7U});
+        ASSERT_EQ(writer.write({content.data(), content.size()}, Instant{}), Status::kOk);
+        Bytes taken(capacity);
+        FrameFacts facts;
+        EXPECT_EQ(reader.take({taken.data(), taken.size()}, facts), FrameOutcome::kNew);
+        EXPECT_EQ(taken, content);
+    }
+}
+
+TEST_F(SharedFrameTest, WordsAreAtThePlacesOfTheFormat) {
+    verifies("SWR-PRT-010", Technique::kInterface);
+    constexpr std::size_t kSlot = 3U + 4U;  // words: number, instant, length, and 29 bytes
+    const std::array<std::byte, 9U> content{std::byte{1U}, std::byte{2U}, std::byte{3U},
+                                            std::byte{4U}, std::byte{5U}, std::byte{6U},
+                                            std::byte{7U}, std::byte{8U}, std::byte{9U}};
+    ASSERT_EQ(writer_.write(content, Instant{-3}), Status::kOk);
+
+    EXPECT_EQ(region_[0U], 1U) << "newest";
+    const std::size_t slot = 1U + kSlot;  // number 1 of 4
+    EXPECT_EQ(region_[slot], 1U);
+    EXPECT_EQ(region_[slot + 1U], ~std::uint64_t{2U});
+    EXPECT_EQ(region_[slot + 2U], 9U);
+    EXPECT_EQ(region_[slot + 3U], 0x0807060504030201U);
+    EXPECT_EQ(region_[slot + 4U], 9U);
+    EXPECT_EQ(region_[slot + 5U], 0U);
 }
 
 TEST_F(SharedFrameTest, ABufferWithoutRoomForALongestFrameIsRejected) {

@@ -14,6 +14,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <limits>
 #include <string>
 
 #include "mamori/trace/verifies.hpp"
@@ -180,6 +181,26 @@ TEST(SharedMemoryTest, ArgumentsOutOfRangeAndASecondOpeningChangeNothing) {
     EXPECT_EQ(sut.create("test", kSize, SharedAccess::kRead), Status::kPreconditionNotMet);
     EXPECT_EQ(sut.adopt(0, kSize, SharedAccess::kRead), Status::kPreconditionNotMet);
     EXPECT_EQ(sut.get_region().size(), 1U);
+}
+
+TEST(SharedMemoryTest, AMemoryOfOneByteAndNoneAboveTheLimitOfLinuxIsCreated) {
+    verifies("SWR-PRT-012", Technique::kBoundaryValues);
+    constexpr auto kLast = static_cast<std::size_t>(std::numeric_limits<off_t>::max());
+    SharedMemory sut;
+    EXPECT_EQ(sut.create("test", kLast + 1U, SharedAccess::kWrite), Status::kBadParameter);
+    EXPECT_EQ(sut.adopt(-1, 1U, SharedAccess::kRead), Status::kError);
+    EXPECT_EQ(sut.get_system_error(), EBADF);
+    EXPECT_EQ(sut.create("test", 1U, SharedAccess::kWrite), Status::kOk) << "after a failure";
+    EXPECT_EQ(sut.get_system_error(), 0);
+    EXPECT_EQ(sut.get_error(), SharedMemoryError::kNone);
+    SharedMemory other;
+    EXPECT_EQ(other.adopt(::dup(sut.get_descriptor()), 1U, SharedAccess::kRead), Status::kOk);
+    EXPECT_EQ(other.get_region().size(), 1U);
+    EXPECT_EQ(other.get_writable_region().size(), 0U);
+    other.close();
+    EXPECT_EQ(other.get_region().size(), 0U);
+    sut.close();
+    EXPECT_EQ(sut.get_descriptor(), -1);
 }
 
 TEST(SharedMemoryTest, AnExhaustedSystemIsReported) {

@@ -91,6 +91,18 @@ TEST(SmallStackTest, WithoutThePrivilegeToLockTheStackIsResident) {
               0);
 }
 
+TEST(SmallStackTest, AtMostOneMebibyteOfTheStackIsTouched) {
+    verifies("SWR-PRT-046", Technique::kBoundaryValues);
+    EXPECT_EQ(run_in_process([] {
+                  ASSERT_TRUE(refuse_call(SYS_mlockall, EPERM, false));
+                  constexpr std::size_t kStack = std::size_t{32U} * 1024U * 1024U;  // none like it was used
+                  const std::size_t touched = lock_on_stack(kStack, kStack).resident_pages;
+                  EXPECT_GE(touched, 256U);
+                  EXPECT_LT(touched, 256U + 32U);
+              }),
+              0);
+}
+
 TEST(SmallStackTest, TheRequestedBytesAreResidentAfterwards) {
     verifies("SWR-PRT-046");
     constexpr std::size_t kStack = std::size_t{4U} * 1024U * 1024U;

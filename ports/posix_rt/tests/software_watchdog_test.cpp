@@ -5,15 +5,19 @@
 #include "mamori/ports/posix_rt/software_watchdog.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 #include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
 #include "support/fake_driver.hpp"
+#include "support/threads.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -178,6 +182,112 @@ TEST_F(SoftwareWatchdogTest, ClosingItLateClosesTheOutputsToo) {
     }
 }
 
+TEST_F(SoftwareWatchdogTest, AWatchdogThatIsOpenedAgainWatchesAndHasACrashStack) {
+    verifies("SWR-PRT-021", Technique::kStateTransition, Polarity::kViolation);
+    static std::atomic<int> closings{0};
+    static std::atomic<bool> has_crash_stack{false};
+    closings = 0;
+    const auto close = [](void*) noexcept {
+        stack_t stack{};
+        static_cast<void>(::sigaltstack(nullptr, &stack));
+        has_crash_stack = stack.ss_flags != SS_DISABLE;
+        ++closings;
+    };
+    SoftwareWatchdog sut{clock_, {0_ms, 100_ms}, {close, nullptr, false}};
+    ASSERT_EQ(sut.open({}), Status::kOk);
+    ASSERT_EQ(sut.close(), Status::kOk);
+    ASSERT_EQ(sut.open({}), Status::kOk);
+    ASSERT_EQ(sut.service(clock_.get_now()), Status::kOk);
+    while (closings == 0) {
+        let_pass(1_ms);
+    }
+    EXPECT_TRUE(has_crash_stack);
+    EXPECT_EQ(sut.close(), Status::kOk);
+    EXPECT_EQ(closings, 1);
+}
+
+TEST_F(SoftwareWatchdogTest, ASignalOfACrashReachesItsThreadAndEndsNoWait) {
+    verifies("SWR-PRT-021", Technique::kFaultInjection, Polarity::kViolation);
+    static std::atomic<int> signals{0};
+    signals = 0;
+    struct sigaction action{};
+    struct sigaction before{};
+    action.sa_handler = [](int) { ++signals; };  // without SA_RESTART: the wait ends early
+    ASSERT_EQ(::sigaction(SIGTRAP, &action, &before), 0);
+    const std::set<pid_t> others = find_threads();
+    SoftwareWatchdog sut{clock_, {0_ms, kHour}, make_reaction()};
+    ASSERT_EQ(sut.open({}), Status::kOk);
+    pid_t thread = 0;
+    for (const pid_t each : find_threads()) {
+        thread = others.count(each) == 0U ? each : thread;
+    }
+    for (int i = 1; i <= 2; ++i) {  // before and after the first service
+        let_pass(2_ms);             // usually it waits then
+        ASSERT_EQ(::syscall(SYS_tgkill, ::getpid(), thread, SIGTRAP), 0);
+        while (signals < i) {
+            let_pass(1_ms);
+        }
+        EXPECT_EQ(sut.service(clock_.get_now()), Status::kOk);
+    }
+    EXPECT_FALSE(sut.has_expired());
+    EXPECT_EQ(sut.close(), Status::kOk);
+    EXPECT_EQ(outputs_.closings, 0);
+    ASSERT_EQ(::sigaction(SIGTRAP, &before, nullptr), 0);
+}
+
+/// Stops until the test advances it, and notes each instant that the thread waits for. No wait ends.
+class StillClock final : public TimeSource {
+  public:
+    std::int64_t read_ns() const noexcept override { return now_ns; }
+    void wait_until(std::int64_t) const noexcept override {}
+    std::int64_t to_monotonic(std::int64_t ns) const noexcept override {
+        until_ns = ns;
+        ++waits;
+        return get_monotonic_clock().read_ns() + kHour.ns;
+    }
+    /// @return instant of the wait with this number, from 1.
+    Instant wait_for(int number) const {
+        while (waits < number) {
+            get_monotonic_clock().wait_until(get_monotonic_clock().read_ns() + 1'000'000);
+        }
+        return Instant{until_ns};
+    }
+    std::atomic<std::int64_t> now_ns{0};
+    mutable std::atomic<std::int64_t> until_ns{-1};
+    mutable std::atomic<int> waits{0};
+};
+
+TEST_F(SoftwareWatchdogTest, BothLimitsOfTheWindowAreInTime) {
+    verifies("SWR-PRT-020", Technique::kBoundaryValues, Polarity::kViolation);
+    for (const std::int64_t elapsed : {9, 10, 20, 21}) {
+        StillClock source;
+        const FrameClock clock = FrameClock::starting_in(0_ms, source);
+        SoftwareWatchdog sut{clock, {Duration{10}, Duration{20}}, make_reaction()};
+        ASSERT_EQ(sut.open({}), Status::kOk);
+        ASSERT_EQ(sut.service(Instant{}), Status::kOk);
+        source.now_ns = elapsed;
+        EXPECT_EQ(sut.has_expired(), elapsed == 21) << elapsed;
+        EXPECT_EQ(sut.is_watching(), elapsed != 21) << elapsed;
+        const bool is_in_time = elapsed == 10 || elapsed == 20;
+        EXPECT_EQ(sut.service(Instant{}), is_in_time ? Status::kOk : Status::kError) << elapsed;
+        const WatchdogCause fault = elapsed == 9 ? WatchdogCause::kEarly : WatchdogCause::kLate;
+        EXPECT_EQ(sut.get_cause(), is_in_time ? WatchdogCause::kNone : fault) << elapsed;
+        EXPECT_EQ(sut.close(), Status::kOk);
+    }
+    EXPECT_EQ(outputs_.closings, 2);
+}
+
+TEST_F(SoftwareWatchdogTest, TheThreadWaitsForTheFirstInstantAfterTheWindow) {
+    verifies("SWR-PRT-021", Technique::kBoundaryValues);
+    StillClock source;
+    const FrameClock clock = FrameClock::starting_in(0_ms, source);
+    SoftwareWatchdog sut{clock, {0_ms, 20_ms}, make_reaction()};
+    ASSERT_EQ(sut.open({}), Status::kOk);
+    ASSERT_EQ(sut.service(Instant{}), Status::kOk);
+    EXPECT_EQ(source.wait_for(1), Instant{} + 20_ms + 1_ns);
+    EXPECT_EQ(sut.close(), Status::kOk);
+}
+
 void hang_under_a_watchdog_that_ends_the_process(const FrameClock& clock) {
     const auto tell = [](void*) noexcept { static_cast<void>(std::fputs("outputs closed\n", stderr)); };
     SoftwareWatchdog sut{clock, {0_ms, kShort}, {tell, nullptr, true}};
@@ -252,6 +362,37 @@ TEST_F(ChainedWatchdogTest, DeviceIsServicedBeforeAndAfterTheFirstService) {
     EXPECT_FALSE(sut.has_expired());
     EXPECT_EQ(sut.close(), Status::kOk);
     EXPECT_TRUE(driver_.is_running) << "the owner disarms it";
+}
+
+TEST_F(ChainedWatchdogTest, TheThreadWaitsForADeviceThatIsDueBeforeTheEndOfTheWindow) {
+    verifies("SWR-PRT-025", Technique::kBoundaryValues);
+    for (const Duration longest : {300_ms, 200_ms}) {
+        StillClock source;
+        const FrameClock clock = FrameClock::starting_in(0_ms, source);
+        SoftwareWatchdog sut{clock, {0_ms, longest}, make_reaction()};
+        const int before = driver_.services;
+        ASSERT_EQ(sut.open({}, &device_), Status::kOk);
+        EXPECT_EQ(source.wait_for(1), Instant{} + 250_ms) << "four times within the timeout of 1 s";
+        EXPECT_EQ(driver_.services, before + 1);
+        ASSERT_EQ(sut.service(Instant{}), Status::kOk);
+        EXPECT_EQ(source.wait_for(2), Instant{} + (longest < 250_ms ? longest + 1_ns : 250_ms));
+        EXPECT_EQ(driver_.services, before + 1) << "it is not due yet";
+        EXPECT_EQ(sut.close(), Status::kOk);
+    }
+    EXPECT_EQ(outputs_.closings, 0);
+}
+
+TEST_F(ChainedWatchdogTest, DeviceIsServicedAtOnceAlsoBeforeTheTimeLineBegins) {
+    verifies("SWR-PRT-025", Technique::kBoundaryValues);
+    const FrameClock clock = FrameClock::starting_in(kHour);
+    SoftwareWatchdog sut{clock, {0_ms, kHour * 2}, make_reaction()};
+    ASSERT_EQ(sut.open({}, &device_), Status::kOk);
+    wait_for_services(1);
+    ASSERT_EQ(sut.service(clock.get_now()), Status::kOk);
+    wait_for_services(1);
+    EXPECT_LT(clock.get_now(), Instant{0});
+    EXPECT_EQ(sut.close(), Status::kOk);
+    EXPECT_EQ(outputs_.closings, 0);
 }
 
 TEST_F(ChainedWatchdogTest, DeviceIsNotServicedAfterTheWatchdogHasExpired) {

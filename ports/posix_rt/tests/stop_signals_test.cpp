@@ -65,6 +65,9 @@ TEST_F(StopSignalsTest, SignalsReachTheListenerUntilTheyAreForwarded) {
     ASSERT_EQ(sigaction(SIGTERM, &with_info, nullptr), 0);
     StopSignals sut;
     ASSERT_EQ(sut.install(ear_), Status::kOk);
+    struct sigaction installed{};
+    ASSERT_EQ(sigaction(SIGINT, nullptr, &installed), 0);
+    EXPECT_EQ(installed.sa_flags & (SA_RESTART | SA_ONSTACK), SA_RESTART | SA_ONSTACK);
 
     errno = 0;
     ASSERT_EQ(raise(SIGINT), 0);

@@ -105,6 +105,13 @@ class HangTest : public ::testing::Test {
         EXPECT_EQ(host.run_within(work, clock_.get_now() + 1_s), 1U);
         EXPECT_FALSE(host.has_returned(kHanging)) << "the other window ran only after the hang";
     }
+    /// Releases the first window.
+    void wait_until_back(const GuardedHost& host) {
+        is_hanging_ = false;
+        while (!host.has_returned(kHanging)) {
+            clock_.wait_until(clock_.get_now() + 1_ms);
+        }
+    }
     void end(GuardedHost& host) {
         is_hanging_ = false;
         while (host.close() != Status::kOk) {
@@ -163,6 +170,27 @@ TEST_F(HangTest, WindowsAtOrAboveTheRunnerAreRejectedAndNoThreadIsLeft) {
     EXPECT_EQ(below.close(), Status::kOk);
 }
 
+TEST_F(HangTest, WindowsAtOrAboveTheRunnerAreRejectedAlsoIfTheirPriorityIsDenied) {
+    verifies("SWR-PRT-041", Technique::kFaultInjection, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([this] {
+                  const rlimit none{0U, 0U};
+                  ASSERT_EQ(setrlimit(RLIMIT_RTPRIO, &none), 0);
+                  ASSERT_EQ(geteuid() == 0U ? setresuid(65534, 65534, 65534) : 0, 0);
+                  GuardedHost host{threads_, clock_, {10, kAny}};
+                  EXPECT_EQ(host.open(1), Status::kBadParameter);
+                  EXPECT_EQ(host.open(10), Status::kBadParameter);
+                  for (const int runner : {11, 0}) {
+                      EXPECT_EQ(host.open(runner), Status::kOk) << "the runner may have been denied it, too";
+                      EXPECT_FALSE(host.get_priority_right().is_granted);
+                      EXPECT_EQ(host.get_priority_right().system_error, EPERM);
+                      EXPECT_EQ(run_window(host, kProtecting, 60_s), 1U);
+                      EXPECT_EQ(seen_, kOrdinary);
+                      EXPECT_EQ(host.close(), Status::kOk);
+                  }
+              }),
+              0);
+}
+
 TEST_F(HangTest, PriorityOfTheOpeningThreadIsTheDefault) {
     verifies("SWR-PRT-041", Technique::kFaultInjection, Polarity::kViolation);
     if (!has_privilege()) {
@@ -184,20 +212,28 @@ TEST_F(HangTest, RunnerThatIsNotAboveTheWindowsRemovesTheirPriorityAndReportsIt)
     if (!has_privilege()) {
         GTEST_SKIP() << kNoPrivilege;
     }
-    run_as_runner(kRunnerPriority, [this] {
-        GuardedHost host{threads_, clock_, {kRunnerPriority - 10, kAny}};
-        ASSERT_EQ(host.open(), Status::kOk);
-        ASSERT_EQ(run_window(host, kProtecting, 1_s), 1U);
-        ASSERT_TRUE(host.get_priority_right().is_granted);
+    for (const int priority : {kRunnerPriority - 10, 1}) {
+        run_as_runner(kRunnerPriority, [this, priority] {
+            GuardedHost host{threads_, clock_, {priority, kAny}};
+            ASSERT_EQ(host.open(), Status::kOk);
+            ASSERT_EQ(run_window(host, kProtecting, 1_s), 1U);
+            ASSERT_TRUE(host.get_priority_right().is_granted);
 
-        ASSERT_TRUE(set_priority(pthread_self(), kRunnerPriority - 10).is_granted);
-        static_cast<void>(hang(host));
-        EXPECT_EQ(seen_, kOrdinary);
-        EXPECT_FALSE(host.get_priority_right().is_granted);
-        EXPECT_EQ(host.get_priority_right().system_error, EPERM);
-        expect_that_the_other_window_runs(host);
-        end(host);
-    });
+            ASSERT_TRUE(set_priority(pthread_self(), priority).is_granted);
+            static_cast<void>(hang(host));
+            EXPECT_EQ(seen_, kOrdinary);
+            EXPECT_FALSE(host.get_priority_right().is_granted);
+            EXPECT_EQ(host.get_priority_right().system_error, EPERM);
+            expect_that_the_other_window_runs(host);
+
+            wait_until_back(host);
+            for (const std::size_t window : {kProtecting, kHanging}) {
+                static_cast<void>(run_window(host, window, 30_ms));
+                EXPECT_EQ(seen_, kOrdinary) << "permanently";
+            }
+            end(host);
+        });
+    }
 }
 
 TEST_F(HangTest, ThreadOfAbortedWorkLosesItsPriorityUntilTheWorkReturns) {
@@ -212,10 +248,7 @@ TEST_F(HangTest, ThreadOfAbortedWorkLosesItsPriorityUntilTheWorkReturns) {
         EXPECT_EQ(seen_, (Scheduling{SCHED_FIFO, 5})) << "within its budget";
         expect_that_the_other_window_runs(host);
 
-        is_hanging_ = false;
-        while (!host.has_returned(kHanging)) {
-            clock_.wait_until(clock_.get_now() + 1_ms);
-        }
+        wait_until_back(host);
         static_cast<void>(hang(host));
         EXPECT_EQ(seen_, (Scheduling{SCHED_FIFO, 5})) << "restored for the next work";
         EXPECT_TRUE(host.get_priority_right().is_granted);
@@ -233,10 +266,7 @@ TEST_F(HangTest, PriorityThatIsNotRestoredIsReported) {
                       GuardedHost host{threads_, clock_, {5, kAny}};
                       ASSERT_EQ(host.open(), Status::kOk);
                       EXPECT_EQ(hang(host), kOrdinary);
-                      is_hanging_ = false;
-                      while (!host.has_returned(kHanging)) {
-                          clock_.wait_until(clock_.get_now() + 1_ms);
-                      }
+                      wait_until_back(host);
                       ASSERT_TRUE(host.get_priority_right().is_granted);
                       const rlimit none{0U, 0U};
                       ASSERT_EQ(setrlimit(RLIMIT_RTPRIO, &none), 0);
@@ -252,6 +282,44 @@ TEST_F(HangTest, PriorityThatIsNotRestoredIsReported) {
               0);
 }
 
+TEST_F(HangTest, HostThatIsOpenedAgainHasTheRightsOfNow) {
+    verifies("SWR-PRT-040", Technique::kStateTransition, Polarity::kViolation);
+    if (!has_privilege() || geteuid() != 0U) {
+        GTEST_SKIP() << kNoPrivilege;
+    }
+    EXPECT_EQ(run_in_process([this] {
+                  GuardedHost host{threads_, clock_, {10, kAny}};
+                  ASSERT_EQ(host.open(11), Status::kOk);
+                  ASSERT_TRUE(host.get_priority_right().is_granted);
+                  ASSERT_EQ(host.close(), Status::kOk);
+                  const rlimit none{0U, 0U};
+                  ASSERT_EQ(setrlimit(RLIMIT_RTPRIO, &none), 0);
+                  ASSERT_EQ(setresuid(65534, 65534, 65534), 0);
+
+                  EXPECT_EQ(host.open(0), Status::kOk) << "its windows have no fixed priority now";
+                  EXPECT_EQ(host.get_priority_right().system_error, EPERM);
+                  EXPECT_EQ(host.close(), Status::kOk);
+              }),
+              0);
+}
+
+TEST_F(HangTest, ThreadThatCannotLeaveItsSchedulingKeepsTheRightThatItHas) {
+    verifies("SWR-PRT-040", Technique::kFaultInjection, Polarity::kViolation);
+    EXPECT_EQ(run_in_process([this] {
+                  const rlimit none{0U, 0U};
+                  ASSERT_EQ(setrlimit(RLIMIT_NICE, &none) + setrlimit(RLIMIT_RTPRIO, &none), 0);
+                  ASSERT_EQ(geteuid() == 0U ? setresuid(65534, 65534, 65534) : 0, 0);
+                  ASSERT_TRUE(set_idle(pthread_self()).is_granted);
+                  GuardedHost host{threads_, clock_, {}};
+                  ASSERT_EQ(host.open(), Status::kOk);
+                  EXPECT_EQ(run_window(host, kProtecting, 600_s), 1U);
+                  EXPECT_EQ(seen_.policy, SCHED_IDLE);
+                  EXPECT_TRUE(host.get_priority_right().is_granted) << "no privilege was requested";
+                  EXPECT_EQ(host.close(), Status::kOk);
+              }),
+              0);
+}
+
 TEST_F(HangTest, OrdinaryThreadOfAbortedWorkRunsBelowAllOthersUntilTheWorkReturns) {
     verifies("SWR-PRT-042", Technique::kFaultInjection, Polarity::kViolation);
     if (!may_leave_idle()) {
@@ -263,10 +331,7 @@ TEST_F(HangTest, OrdinaryThreadOfAbortedWorkRunsBelowAllOthersUntilTheWorkReturn
     EXPECT_EQ(hang(host).policy, SCHED_IDLE);
     expect_that_the_other_window_runs(host);
 
-    is_hanging_ = false;
-    while (!host.has_returned(kHanging)) {
-        clock_.wait_until(clock_.get_now() + 1_ms);
-    }
+    wait_until_back(host);
     static_cast<void>(hang(host));
     EXPECT_EQ(seen_, kOrdinary);
     end(host);
@@ -307,6 +372,28 @@ TEST(WatchSchedulingTest, WatchdogMustBeAboveTheFixedPriorityOfTheOpeningThread)
         outputs.wait(clock);
         EXPECT_EQ(sut.close(), Status::kOk);
         EXPECT_EQ(outputs.seen, (Scheduling{SCHED_FIFO, kRunnerPriority + 1}));
+    });
+}
+
+TEST(WatchSchedulingTest, TheLowestFixedPriorityIsOneLikeAnyOther) {
+    verifies("SWR-PRT-041", Technique::kBoundaryValues, Polarity::kViolation);
+    if (!has_privilege()) {
+        GTEST_SKIP() << kNoPrivilege;
+    }
+    run_as_runner(1, [] {
+        const FrameClock clock = FrameClock::starting_in(0_ms);
+        Outputs outputs;
+        SoftwareWatchdog watchdog{clock, {0_ms, 60_s}, {&Outputs::close, &outputs, false}};
+        EXPECT_EQ(watchdog.open({1, kAny}), Status::kBadParameter);
+        ASSERT_EQ(watchdog.open({2, kAny}), Status::kOk);
+        EXPECT_EQ(watchdog.close(), Status::kOk);
+        constexpr GridLimits kLimits{60_s, 1_ms, {60_s, 500'000}};
+        GridWatch low{{}, clock, get_raw_clock(), kLimits, {&Outputs::close, &outputs}, {1, kAny}};
+        EXPECT_EQ(low.open(), Status::kBadParameter);
+        GridWatch above{{}, clock, get_raw_clock(), kLimits, {&Outputs::close, &outputs}, {2, kAny}};
+        ASSERT_EQ(above.open(), Status::kOk);
+        above.close();
+        EXPECT_FALSE(outputs.is_closed);
     });
 }
 

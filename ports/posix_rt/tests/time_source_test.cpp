@@ -4,11 +4,16 @@
 #include "mamori/ports/posix_rt/time_source.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <time.h>
+
+#include <cerrno>
 
 #include "mamori/ports/posix_rt/frame_clock.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "mamori/verification/failed_check.hpp"
 #include "support/fake_clock.hpp"
+#include "support/refused_call.hpp"
 
 namespace mamori::ports::posix_rt {
 namespace {
@@ -35,6 +40,16 @@ TEST(TimeSourceTest, DefaultsAreTheMonotonicAndTheRawClock) {
     const std::int64_t raw = get_raw_clock().read_ns();
     EXPECT_LE(raw_before, raw);
     EXPECT_LE(raw, read(CLOCK_MONOTONIC_RAW));
+}
+
+TEST(TimeSourceTest, ASleepThatLinuxRefusesEndsTheProcess) {
+    verifies("SWR-PRT-001", Technique::kFaultInjection, Polarity::kViolation);
+    EXPECT_CHECK_FAILS(
+        {
+            static_cast<void>(refuse_call(SYS_clock_nanosleep, EINVAL, false));
+            get_monotonic_clock().wait_until(1);
+        },
+        "time_source.cpp", 2);
 }
 
 TEST(TimeSourceTest, ReplacedClockDeterminesReadingsAndWaits) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 
 #include "mamori/trace/verifies.hpp"
 #include "support/fake_driver.hpp"
@@ -149,6 +150,30 @@ TEST_F(WatchdogDeviceTest, ResetByTheDeviceIsReported) {
         EXPECT_EQ(sut.has_reset_machine(), status == WDIOF_CARDRESET);
         ASSERT_EQ(sut.disarm(), Status::kOk);
     }
+}
+
+TEST_F(WatchdogDeviceTest, TheLongestTimeoutOfADriverIsAccepted) {
+    verifies("SWR-PRT-023", Technique::kBoundaryValues);
+    constexpr Duration kLongest{std::int64_t{2'147'483'647} * 1'000'000'000};
+    driver_.longest_s = std::numeric_limits<int>::max();
+    WatchdogDevice sut{kFakeCalls};
+    ASSERT_EQ(sut.open("/dev/fake", kLongest), Status::kOk);
+    EXPECT_EQ(sut.get_timeout(), kLongest);
+    EXPECT_EQ(sut.get_system_error(), 0);
+    EXPECT_EQ(sut.disarm(), Status::kOk);
+    EXPECT_EQ(sut.get_timeout(), Duration{0});
+}
+
+TEST_F(WatchdogDeviceTest, TheFirstDescriptorIsOneLikeAnyOther) {
+    verifies("SWR-PRT-024", Technique::kBoundaryValues);
+    driver_.device = 0;
+    WatchdogDevice sut{kFakeCalls};
+    ASSERT_EQ(sut.open("/dev/fake", kTimeout), Status::kOk);
+    EXPECT_TRUE(sut.is_open());
+    EXPECT_EQ(sut.service(Instant{}), Status::kOk);
+    EXPECT_EQ(sut.disarm(), Status::kOk);
+    EXPECT_FALSE(driver_.is_open);
+    EXPECT_FALSE(driver_.is_running);
 }
 
 TEST_F(WatchdogDeviceTest, DisarmStopsIt) {

@@ -22,6 +22,7 @@ struct FakeDriver {
     bool can_stop{true};  ///< false: built with CONFIG_WATCHDOG_NOWAYOUT
     int longest_s{60};    ///< maximum timeout [s]
     int boot_status{0};
+    int device{1000};  ///< number of the descriptor
     // Injected failures (errno); 0: none.
     int open_error{0};
     int set_error{0};
@@ -39,7 +40,6 @@ struct FakeDriver {
     bool is_stop_allowed{false};
     std::string path{};
 
-    static constexpr int kDevice = 1000;
     static FakeDriver& get() {
         static FakeDriver driver;
         return driver;
@@ -66,7 +66,7 @@ inline int open(const char* path, int) {
     }
     driver.is_open = true;
     driver.is_running = driver.is_watchdog;
-    return FakeDriver::kDevice;
+    return driver.device;
 }
 
 inline int control(int, unsigned long request, void* argument) {
