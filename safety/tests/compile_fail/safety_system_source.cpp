@@ -76,17 +76,23 @@ constexpr auto kLateness = tolerated_lateness(mamori::Duration{-1});
 #else
 constexpr auto kLateness = tolerated_lateness(0_ms);
 #endif
-#ifdef MAMORI_DEFECT_LATE_FAULT
+#if defined(MAMORI_DEFECT_LATE_OTHER_FAULT)
+constexpr auto kOnLate = on_late_reaction(raises(OtherFault::kFast));
+#elif defined(MAMORI_DEFECT_LATE_FAULT)
 constexpr auto kOnLate = on_late_reaction(raises(Fault::kUndeclared));
 #else
 constexpr auto kOnLate = on_late_reaction(raises(Fault::kLate));
 #endif
-#ifdef MAMORI_DEFECT_SELF_TEST_FAULT
+#if defined(MAMORI_DEFECT_SELF_TEST_OTHER_FAULT)
+constexpr auto kOnFailed = on_failed_self_test(raises(OtherFault::kFast));
+#elif defined(MAMORI_DEFECT_SELF_TEST_FAULT)
 constexpr auto kOnFailed = on_failed_self_test(raises(Fault::kUndeclared));
 #else
 constexpr auto kOnFailed = on_failed_self_test(raises(Fault::kSelfTest));
 #endif
-#ifdef MAMORI_DEFECT_BRAKE_FAULT
+#if defined(MAMORI_DEFECT_BRAKE_OTHER_FAULT)
+constexpr auto kOnBrakes = on_unconfirmed_brakes(raises(OtherFault::kFast));
+#elif defined(MAMORI_DEFECT_BRAKE_FAULT)
 constexpr auto kOnBrakes = on_unconfirmed_brakes(raises(Fault::kUndeclared));
 #else
 constexpr auto kOnBrakes = on_unconfirmed_brakes(raises(Fault::kFast));
