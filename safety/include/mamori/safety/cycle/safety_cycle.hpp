@@ -55,7 +55,7 @@ struct CycleInputs {
 
 /// Thread safety: none; the executive calls it. Time: O(components + faults * reactions).
 /// Memory:        no heap; all state of the decision is in the SafetyState.
-class SafetyCycle : public Component {
+class SafetyCycle : public Component, public CycleComponent {
   public:
     /// Confirmations and supervision of the table. @return kOk; kPreconditionNotMet (a second call while a
     /// fault is latched or a component is watched).

@@ -21,6 +21,13 @@
 
 namespace mamori::safety {
 
+/// Base of SafetyCycle, by which the check of a table finds its component.
+class CycleComponent {
+  protected:
+    constexpr CycleComponent() noexcept = default;
+    ~CycleComponent() = default;
+};
+
 /// Supervision of one component.
 struct SuperviseRow {
     WatchRow watch{};
