@@ -11,7 +11,7 @@
 #include "arm_assumptions.hpp"
 #include "arm_faults.hpp"
 #include "arm_limits.hpp"
-#include "safety_supervisor.hpp"
+#include "safe_arm_system.hpp"
 
 namespace safe_arm {
 namespace {
@@ -61,10 +61,17 @@ std::string describe_argument(const mamori::Event& event) {
             return get_name(static_cast<Reaction>(event.argument));
         case CycleEvent::kAssumptionFailed:
             return kArmAssumptionNames.at(static_cast<std::size_t>(event.argument));
+        case CycleEvent::kComponentExpired:
+            return mamori::safety::kExpiryCauseNames.at(static_cast<std::size_t>(event.argument));
         case CycleEvent::kWatchdogRefused:
             break;
     }
     return std::to_string(event.argument);
+}
+
+/// Name of the source of an event.
+const char* get_source(const mamori::Event& event) {
+    return event.source == 0U ? "supervisor" : executive.get_view().components[event.source - 1U]->get_name();
 }
 
 std::string make_events_text(const mamori::EventLog& events) {
@@ -74,8 +81,9 @@ std::string make_events_text(const mamori::EventLog& events) {
         const mamori::Event& event = events.get(i);
         text += std::to_string(event.sequence);
         append(text, to_seconds(event.time - Instant{}));
-        text += std::string(",") + kSeverities[static_cast<std::size_t>(event.severity)] + ",supervisor," +
-                kCycleEventNames.at(event.code) + "," + describe_argument(event) + "\n";
+        text += std::string(",") + kSeverities[static_cast<std::size_t>(event.severity)] + "," +
+                get_source(event) + "," + kCycleEventNames.at(event.code) + "," + describe_argument(event) +
+                "\n";
     }
     return text;
 }

@@ -7,6 +7,7 @@
 #include "arm_assumptions.hpp"
 #include "arm_faults.hpp"
 #include "run_record.hpp"
+#include "safe_arm_system.hpp"
 #include "safety_supervisor.hpp"
 
 namespace safe_arm {
@@ -30,8 +31,8 @@ Json make_names(Enum first, Enum last) {
 
 /// The table that `mamori log` reads: docs/design/recorder.md.
 std::string make_name_table() {
-    constexpr std::array<const char*, kCycleEventNames.size()> kArguments{"state", "fault", "reaction", "",
-                                                                          "assumption"};
+    constexpr std::array<const char*, kCycleEventNames.size()> kArguments{"state", "fault",      "reaction",
+                                                                          "",      "assumption", "cause"};
     Json codes = Json::object();
     for (std::size_t code = 0U; code < kCycleEventNames.size(); ++code) {
         codes[std::to_string(code)] = {{"name", kCycleEventNames[code]}, {"argument", kArguments[code]}};
@@ -44,12 +45,21 @@ std::string make_name_table() {
     for (std::size_t assumption = 0U; assumption < kArmAssumptionNames.size(); ++assumption) {
         assumptions[std::to_string(assumption)] = kArmAssumptionNames[assumption];
     }
-    const Json table = {{"sources", {{"0", "supervisor"}}},
+    Json sources = {{"0", "supervisor"}};
+    for (const mamori::Component* component : executive.get_view().components) {
+        sources[std::to_string(sources.size())] = component->get_name();
+    }
+    Json causes = Json::object();
+    for (std::size_t cause = 0U; cause < mamori::safety::kExpiryCauseNames.size(); ++cause) {
+        causes[std::to_string(cause)] = mamori::safety::kExpiryCauseNames[cause];
+    }
+    const Json table = {{"sources", sources},
                         {"codes", codes},
                         {"arguments",
                          {{"state", make_names(SafeState::kSelfTest, SafeState::kLockedHold)},
                           {"fault", faults},
                           {"assumption", assumptions},
+                          {"cause", causes},
                           {"reaction", make_names(Reaction::kNone, Reaction::kSto)}}}};
     return table.dump(1) + "\n";
 }

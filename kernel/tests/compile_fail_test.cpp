@@ -473,5 +473,46 @@ TEST(CompileFailTest, ACheckedTableThatBreaksARuleOrIsThatOfAnotherExecutiveIsRe
                      "2");
 }
 
+TEST(CompileFailTest, SystemWindowsWithABudgetCompile) {
+    verifies("SWR-KRN-099", Technique::kInterface);
+    const testing_support::Compilation& control = testing_support::compile_control("windows");
+    EXPECT_TRUE(control.has_succeeded) << control.output;
+}
+
+TEST(CompileFailTest, ASystemWindowWithoutBudgetIsRejectedAndItsFunctionNamed) {
+    verifies("SWR-KRN-099", Technique::kInterface, Polarity::kViolation);
+    expect_refused("windows", "system_window_without_budget",
+                   "SystemWindowHasItsBudget<mamori::SystemFunction<send_notice>");
+}
+
+TEST(CompileFailTest, ASystemWindowWithABudgetOfZeroIsRejectedAndNamed) {
+    verifies("SWR-KRN-099", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_refused("windows", "system_window_budget_of_zero",
+                   "BudgetIsInsideWindow<mamori::Name<'n', 'o', 't', 'i', 'c', 'e'>");
+}
+
+TEST(CompileFailTest, ASystemWindowThatRunsAComponentIsRejected) {
+    verifies("SWR-KRN-099", Technique::kInterface, Polarity::kViolation);
+    expect_refused("windows", "system_window_of_component", "a system window ends with its SystemFunction");
+}
+
+TEST(CompileFailTest, ASystemWindowThatWaitsForEventsIsRejected) {
+    verifies("SWR-KRN-099", Technique::kInterface, Polarity::kViolation);
+    expect_refused("windows", "system_window_of_events",
+                   "a system window is periodic; remove event_driven(...) or triggered_by(...)");
+}
+
+TEST(CompileFailTest, ASystemWindowThatWaitsForATriggerIsRejected) {
+    verifies("SWR-KRN-099", Technique::kInterface, Polarity::kViolation);
+    expect_refused("windows", "system_window_of_trigger",
+                   "a system window is periodic; remove event_driven(...) or triggered_by(...)");
+}
+
+TEST(CompileFailTest, ASystemFunctionOfAnotherTypeIsRejected) {
+    verifies("SWR-KRN-099", Technique::kInterface, Polarity::kViolation);
+    expect_refused("windows", "system_function_of_integer",
+                   "a system function is Status f(ContextHandle) noexcept");
+}
+
 }  // namespace
 }  // namespace mamori

@@ -74,7 +74,11 @@ class FakeMachine final : public SafetyCycle {
     }
 };
 
-inline Watched g_guard{"guard"};
+class Decider final : public Component, public CycleComponent {
+  public:
+    constexpr explicit Decider(const char* name) noexcept : Component(name) {}
+};
+inline Decider g_guard{"guard"};
 inline Watched g_controller{"controller"};
 inline Watched g_logger{"logger"};
 inline constexpr auto kSystem = safety::system(

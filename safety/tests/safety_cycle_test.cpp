@@ -2,6 +2,7 @@
 // Goal: the cycle asks the machine in a fixed order, executes all rows of its table, and finds a reaction
 // that does not reach the outputs. Method: a machine made here, frame after frame; outputs that follow the
 // commands or ignore them.
+#include "mamori/kernel/component/execution_context.hpp"
 #include "safety_cycle_fixture.hpp"
 
 namespace mamori::safety::testing_of_cycle {
@@ -431,6 +432,91 @@ TEST_F(SafetyCycleTest, AClockThatRunsBackwardsLocksOut) {
     now_ = now_ - 10_ms;
 
     EXPECT_EQ(step(), SafeState::kLockedOut);
+}
+
+TEST_F(SafetyCycleTest, TheCauseOfAnExpiryIsWrittenWithItsComponentAndKept) {
+    verifies("SWR-CYC-010", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    const auto find_events = [this]() {
+        std::vector<std::pair<std::uint16_t, std::int64_t>> found;
+        for (std::size_t i = 0U; i < log_.size(); ++i) {
+            if (log_.get(i).code == static_cast<std::uint16_t>(CycleEvent::kComponentExpired)) {
+                found.emplace_back(log_.get(i).source, log_.get(i).argument);
+            }
+        }
+        return found;
+    };
+    EXPECT_EQ(sut_.get_last_expiry().component, kNoIndex);
+
+    is_controller_running_ = false;
+    step();
+    step();
+    EXPECT_EQ(find_events().size(), 0U) << "late, not expired";
+    for (int i = 0; i < 20; ++i) {
+        step();
+    }
+    using Found = std::vector<std::pair<std::uint16_t, std::int64_t>>;
+    EXPECT_EQ(find_events(), (Found{{2U, static_cast<std::int64_t>(ExpiryCause::kSilent)}})) << "once";
+    EXPECT_EQ(sut_.get_last_expiry().component, 1U);
+    EXPECT_EQ(sut_.get_last_expiry().cause, ExpiryCause::kSilent);
+
+    state_.get_observer().get_records()[0U].note_run(now_, now_ + 101_us);
+    is_guard_running_ = false;
+    step();
+    EXPECT_EQ(find_events().back(),
+              (Found::value_type{1U, static_cast<std::int64_t>(ExpiryCause::kDeadline)}));
+    EXPECT_EQ(sut_.get_last_expiry().component, 0U);
+    state_.get_observer().on_budget_overrun(0U, 2U, now_);
+    step();
+    EXPECT_EQ(find_events().back(),
+              (Found::value_type{3U, static_cast<std::int64_t>(ExpiryCause::kBudgetOverrun)}));
+    EXPECT_EQ(find_events().size(), 3U);
+}
+
+TEST_F(SafetyCycleTest, ASystemThatRunsHasNoExpiry) {
+    verifies("SWR-CYC-010");
+    operate();
+    for (int i = 0; i < 20; ++i) {
+        step();
+    }
+    EXPECT_EQ(sut_.get_last_expiry().component, kNoIndex);
+    EXPECT_EQ(sut_.get_last_expiry().cause, ExpiryCause::kNone);
+}
+
+class Failing final : public Component {
+  public:
+    constexpr Failing() noexcept : Component("failing") {}
+    Status on_execute(ContextHandle) noexcept override { return Status::kError; }
+};
+Failing g_failing;
+constexpr auto kFailing = mamori::system(frame(1_ms), window("w", 0_us, 1_ms, budget(1_ms), run(g_failing)));
+
+TEST(ExpiryCauseTest, AComponentInErrorIsNamedAsSuch) {
+    verifies("SWR-CYC-010", Technique::kFaultInjection, Polarity::kViolation);
+    ExecutionStorageFor<kFailing> storage;
+    ExecutionSupervisor sut{storage, 1_ms};
+    ASSERT_EQ(sut.watch(g_failing, {alive(1U, 1U), deadline(1_ms), SupervisionScope::kGlobal}), Status::kOk);
+    EXPECT_EQ(sut.get_state(0U), LifecycleState::kCreated);
+    ASSERT_EQ(g_failing.initialize(), Status::kOk);
+    ExecutionContext context;
+    ContextPlan plan{};
+    plan.period = 1_ms;
+    ASSERT_EQ(context.attach(0, kFailing.components, plan), Status::kOk);
+    ASSERT_EQ(context.start(Instant{}), Status::kOk);
+    ASSERT_EQ(context.activate_component(g_failing, Instant{}), Status::kOk);
+    ASSERT_EQ(context.begin_cycle(Instant{}), Status::kOk);
+    context.execute(0U);
+    context.end_cycle();
+    ASSERT_EQ(sut.get_state(0U), LifecycleState::kError);
+
+    EXPECT_EQ(sut.step(Instant{}), GlobalStatus::kExpired);
+
+    EXPECT_EQ(sut.get_cause(g_failing), ExpiryCause::kInError);
+    EXPECT_TRUE(sut.has_just_expired(0U));
+    EXPECT_EQ(sut.step(Instant{1}), GlobalStatus::kExpired);
+    EXPECT_FALSE(sut.has_just_expired(0U));
+    ASSERT_EQ(context.stop(Instant{}), Status::kOk);
+    ASSERT_EQ(context.detach(), Status::kOk);
 }
 
 }  // namespace

@@ -20,7 +20,11 @@ class Watched final : public Component {
   public:
     constexpr explicit Watched(const char* name) noexcept : Component(name) {}
 };
-Watched g_guard{"guard"};
+class Decider final : public Component, public CycleComponent {
+  public:
+    constexpr Decider() noexcept : Component("guard") {}
+};
+Decider g_guard;
 Watched g_controller{"controller"};
 Watched g_stranger{"stranger"};
 
@@ -139,9 +143,34 @@ TEST(SafetyRulesTest, TheCheckOfAConstantTableAnswersWhileRunningToo) {
     verifies("SWR-CYC-002", Technique::kInterface);
     EXPECT_TRUE(keeps_safety_rules<kSound>());
     EXPECT_TRUE((std::is_same_v<decltype(detail::show_faulty<kSound, SafetyRule::kAliveInRange, 0U>()),
-                                detail::Shown<Watched>>));
+                                detail::Shown<Decider>>));
     static_cast<void>(detail::show_faulty<kSound, SafetyRule::kNone, 0U>());
     static_cast<void>(detail::show_faulty<kSound, SafetyRule::kAliveInRange, 0U>());
+}
+
+TEST(SafetyRulesTest, ThePeriodOfTheCycleIsInsideTheWindowOfTheWatchdog) {
+    verifies("SWR-CYC-011", Technique::kBoundaryValues);
+    const auto check_window = [](Duration shortest, Duration longest) {
+        auto table = build_sound();
+        table.cycle.watchdog = {shortest, longest};
+        return detail::check_cycle_window(table, 0U).rule;
+    };
+    EXPECT_EQ(check_window(1_ms, 2_ms), SafetyRule::kNone);
+    EXPECT_EQ(check_window(0_ms, 1_ms), SafetyRule::kNone);
+    EXPECT_EQ(check_window(1_ms + 1_ns, 2_ms), SafetyRule::kWatchdogFitsPeriod);
+    EXPECT_EQ(check_window(0_ms, 1_ms - 1_ns), SafetyRule::kWatchdogFitsPeriod);
+}
+
+TEST(SafetyRulesTest, ASupervisedComponentRunsOnTheCoreOfTheCycle) {
+    verifies("SWR-CYC-011", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const auto table = safety::system(
+        frame(1_ms), window("a", 0_us, 1_ms, budget(1_ms), run(g_guard)),
+        window("b", 0_us, 1_ms, core(1U), budget(1_ms), run(g_controller)), faults<Fault::kFast>(),
+        react(Fault::kFast, Reaction::kSs1, within(2_ms)), supervise(g_guard, alive(), deadline(1_ms)),
+        supervise(g_controller, alive(), deadline(1_ms)), make_cycle());
+    EXPECT_EQ(detail::check_cycle_window(table, 0U).rule, SafetyRule::kSupervisedOnCore);
+    EXPECT_EQ(detail::check_cycle_window(table, 0U).row, 1U);
+    EXPECT_EQ(detail::check_cycle_window(table, 1U).row, 0U);
 }
 
 }  // namespace

@@ -95,6 +95,18 @@ def test_background_windows_follow_the_ordinary_windows_of_their_core(tmp_path: 
     assert heads == ["core 0, budgets take 100.0 %", "background of core 0, budgets take 20.0 %", "core 1, budgets take 100.0 %"]
 
 
+@pytest.mark.verifies("SWR-KRN-096")
+def test_a_system_window_is_marked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write(tmp_path, windows=[window("notice", 0, 0, MS, MS, MS, kind="system")], components=[component("send", 0)], connections=[])
+
+    assert table(path) == 0
+    lines = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+    assert table(path, "--svg-time-line", tmp_path / "a.svg") == 0
+
+    assert "notice 0 ns 1 ms 1 ms 1 ms system send" in lines
+    assert "notice" in (tmp_path / "a.svg").read_text(encoding="utf-8")
+
+
 @pytest.mark.verifies("SWR-TAB-004", technique="fault_injection", polarity="violation")
 def test_every_finding_is_printed_and_the_status_tells(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert table(write(tmp_path, findings=["window 'a': too long", "fault 1 has no reaction"]), "--text") == 1

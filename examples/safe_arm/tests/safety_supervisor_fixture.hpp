@@ -22,7 +22,12 @@ class Supervised final : public mamori::Component {
   public:
     constexpr explicit Supervised(const char* name) noexcept : Component(name) {}
 };
-Supervised g_other{"other"};
+/// In the table instead of the supervisor, which the test calls itself.
+class InsteadOfCycle final : public mamori::Component, public mamori::safety::CycleComponent {
+  public:
+    constexpr explicit InsteadOfCycle(const char* name) noexcept : Component(name) {}
+};
+InsteadOfCycle g_other{"other"};
 Supervised g_controller{"controller"};
 constexpr auto kSupervised = mamori::safety::system(
     mamori::frame(kFrame), make_arm_safety(kLatenessMax),

@@ -348,3 +348,78 @@ mamori::ExecutiveFor<decltype(kSystem)> executive{mamori::kChecked<kOther>};
 mamori::ExecutiveFor executive{mamori::kChecked<kSystem>};
 #endif
 }  // namespace checked_table
+
+inline mamori::Status send_notice(mamori::ContextHandle) noexcept {
+    return mamori::Status::kOk;
+}
+inline mamori::SystemFunction<&send_notice> g_function{"function"};
+
+// A system window without a budget.
+namespace system_window_without_budget {
+#ifdef MAMORI_BREAK_SYSTEM_WINDOW_WITHOUT_BUDGET
+constexpr auto kSystem =
+    mamori::system(mamori::frame(1_ms), mamori::system_window("notice", 0_us, 100_us, g_function));
+#else
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms), mamori::system_window("notice", 0_us, 100_us, mamori::budget(1_ns), g_function));
+#endif
+MAMORI_CHECK(kSystem);
+}  // namespace system_window_without_budget
+
+// The budget of a system window is 0.
+namespace system_window_budget_of_zero {
+#ifdef MAMORI_BREAK_SYSTEM_WINDOW_BUDGET_OF_ZERO
+constexpr mamori::Duration kBudget{0};
+#else
+constexpr mamori::Duration kBudget{1};
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms), mamori::system_window("notice", 0_us, 100_us, mamori::budget(kBudget), g_function));
+MAMORI_CHECK(kSystem);
+}  // namespace system_window_budget_of_zero
+
+// A system window that runs a component.
+namespace system_window_of_component {
+#ifdef MAMORI_BREAK_SYSTEM_WINDOW_OF_COMPONENT
+constexpr auto& kRun = g_producer;
+#else
+constexpr auto& kRun = g_function;
+#endif
+constexpr auto kSystem = mamori::system(
+    mamori::frame(1_ms), mamori::system_window("notice", 0_us, 100_us, mamori::budget(1_us), kRun));
+}  // namespace system_window_of_component
+
+// A system window that waits for events.
+namespace system_window_of_events {
+#ifdef MAMORI_BREAK_SYSTEM_WINDOW_OF_EVENTS
+constexpr auto kOption = mamori::event_driven(1U);
+#else
+constexpr auto kOption = mamori::core(0U);
+#endif
+constexpr auto kSystem =
+    mamori::system(mamori::frame(1_ms),
+                   mamori::system_window("notice", 0_us, 100_us, mamori::budget(1_us), kOption, g_function));
+}  // namespace system_window_of_events
+
+// A system window that waits for a trigger.
+namespace system_window_of_trigger {
+#ifdef MAMORI_BREAK_SYSTEM_WINDOW_OF_TRIGGER
+inline mamori::ExternalTrigger trigger;
+constexpr auto kOption = mamori::triggered_by(trigger);
+#else
+constexpr auto kOption = mamori::core(0U);
+#endif
+constexpr auto kSystem =
+    mamori::system(mamori::frame(1_ms),
+                   mamori::system_window("notice", 0_us, 100_us, mamori::budget(1_us), kOption, g_function));
+}  // namespace system_window_of_trigger
+
+// A system function that is not one.
+namespace system_function_of_integer {
+#ifdef MAMORI_BREAK_SYSTEM_FUNCTION_OF_INTEGER
+inline int send_integer(int) noexcept {
+    return 0;
+}
+inline mamori::SystemFunction<&send_integer> g_other{};
+#endif
+}  // namespace system_function_of_integer

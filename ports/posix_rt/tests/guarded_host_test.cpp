@@ -289,6 +289,52 @@ TEST_F(WaitingThreadTest, RightsAreThoseOfTheThreadsOfTheHost) {
     EXPECT_EQ(without.close(), Status::kOk);
 }
 
+struct Gate {
+    std::atomic<bool> is_closed{false};
+    std::atomic<bool> is_reached{false};
+};
+Status wait_for(Gate& gate, ContextHandle) noexcept {
+    gate.is_reached = true;
+    while (gate.is_closed) {
+        std::this_thread::yield();
+    }
+    return Status::kOk;
+}
+
+TEST(GuardedFunctionTest, ASystemWindowThatHangsIsNamedAndTheOtherWindowRuns) {
+    verifies("SWR-KRN-097", Technique::kFaultInjection, Polarity::kViolation);
+    Gate gate;
+    SystemFunction<&wait_for> function{"function", gate};
+    Actor other{"other"};
+    auto table = system(frame(10_s), system_window("call", 0_s, 5_s, budget(20_ms), function),
+                        window("other", 5_s, 5_s, budget(5_s), run(other)));
+    const FrameClock clock = FrameClock::starting_in(0_ms);
+    std::array<WindowThread, 2U> threads;
+    GuardedHost host{threads, clock, {}};
+    Ear ear;
+    ExecutiveFor executive{table};
+    ASSERT_EQ(host.open(), Status::kOk);
+    ASSERT_EQ(executive.initialize(), Status::kOk);
+    ASSERT_EQ(executive.start(), Status::kOk);
+    executive.set_observer(&ear);
+
+    gate.is_closed = true;
+    EXPECT_EQ(executive.run_window(0U, Instant{0}, host), WindowOutcome::kOverrun);
+    while (!gate.is_reached) {
+        std::this_thread::yield();
+    }
+    EXPECT_EQ(executive.run_window(1U, Instant{0}, host), WindowOutcome::kCompleted);
+    EXPECT_EQ(ear.heard, (std::vector<std::string>{"window 0 component 0"}));
+
+    gate.is_closed = false;
+    while (!host.has_returned(0U)) {
+        std::this_thread::yield();
+    }
+    table.windows[0].budget = 5_s;
+    EXPECT_EQ(executive.run_window(0U, clock.get_now(), host), WindowOutcome::kCompleted);
+    ASSERT_EQ(host.close(), Status::kOk);
+}
+
 class CoreRunnerTest : public ::testing::Test {
   protected:
     Actor a_{"a"};

@@ -98,6 +98,19 @@ constexpr auto kActions =
     system(frame(1000_ns), action_budget(700_ns), window("near", 0_ns, 300_ns, budget(200_ns), run(g_near)),
            window("far", 400_ns, 500_ns, core(1U), budget(400_ns), run(g_hanger)));
 
+int g_call_count = 0;
+Status count_call(int& count, ContextHandle) noexcept {
+    ++count;
+    return Status::kOk;
+}
+SystemFunction<&count_call> g_function{"function", g_call_count};
+Counter g_counted;
+constexpr auto kFunction =
+    system(frame(1000_ns), window("count", 0_ns, 300_ns, budget(200_ns), run(g_counted)),
+           system_window("call", 300_ns, 200_ns, every(500_ns), budget(100_ns), g_function),
+           modelled_time(g_function, 100_ns));
+MAMORI_CHECK(kFunction);
+
 MAMORI_CONSTINIT Machine<kRuns> g_machine;
 
 class SpyDevices final : public Devices {
@@ -289,6 +302,19 @@ TEST(VirtualMachineTest, ModelledTimeOfACoreChangesAtRunTime) {
     ASSERT_EQ(sut.get_host_of<1U>().set_duration(g_doubler_kSlow, 400_ns), Status::kOk);
     ASSERT_EQ(sut.run(1U), Status::kOk);
     EXPECT_EQ(sut.get_overrun_count(), 2U);
+}
+
+TEST(VirtualMachineTest, SystemWindowHasItsModelledTimeAndItsBudget) {
+    verifies("SWR-KRN-097", Technique::kBoundaryValues, Polarity::kViolation);
+    static Machine<kFunction> sut;
+
+    ASSERT_EQ(sut.run(3U), Status::kOk);
+    EXPECT_EQ(g_call_count, 6);
+    EXPECT_EQ(sut.get_overrun_count(), 0U);
+    ASSERT_EQ(sut.get_host_of<0U>().set_duration(g_function, 101_ns), Status::kOk);
+    ASSERT_EQ(sut.run(1U), Status::kOk);
+    EXPECT_EQ(sut.get_overrun_count(), 2U);
+    EXPECT_EQ(g_counted.out.get_published(), 4);
 }
 
 }  // namespace

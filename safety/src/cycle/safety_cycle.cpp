@@ -57,6 +57,7 @@ void SafetyCycle::decide(Instant now) noexcept {
     state_.flow_.report(FlowPoint::kBegun, now);
     const CycleInputs machine = read_inputs(now);
     const GlobalStatus health = state_.supervision_.step(now);
+    record_expiries(now);
     const SafeState before = state_.machine_.get_state();
     SafeStateInputs inputs{};
     inputs.standstill = state_.brakes_.confirm(before, machine.is_standing, machine.are_brakes_closed, now);
@@ -145,6 +146,23 @@ bool SafetyCycle::find_presence(FaultIndex fault, SelfTestStatus self_test, Inst
     return result;
 }
 
+/// Before the faults of this cycle: a component that expires again while its fault is latched is no news.
+void SafetyCycle::record_expiries(Instant now) noexcept {
+    if (state_.supervision_.get_first_expired() == ExecutionSupervisor::kNoComponent) {
+        return;
+    }
+    for (const SuperviseRow& row : state_.supervised_) {
+        const std::size_t index = state_.supervision_.find(*row.watch.component);
+        const bool is_known = row.fault != kNoFault && state_.faults_.is_latched(row.fault);
+        if (state_.supervision_.has_just_expired(index) && !is_known) {
+            last_expiry_ = {index, state_.supervision_.get_cause(index)};
+            write_event(now, Severity::kFault, CycleEvent::kComponentExpired,
+                        static_cast<std::int64_t>(last_expiry_.cause),
+                        static_cast<std::uint16_t>(index + 1U));
+        }
+    }
+}
+
 /// Once the fault is latched, the supervision starts again. A component that still hangs expires again, at
 /// the latest after its expired_cycles; until then, the healing of the fault is not complete.
 bool SafetyCycle::is_expired(const SuperviseRow& row) noexcept {
@@ -222,10 +240,10 @@ void SafetyCycle::service_watchdog(GlobalStatus health, bool is_trustworthy, Ins
     is_watchdog_refused_ = is_refused;
 }
 
-void SafetyCycle::write_event(Instant now, Severity severity, CycleEvent event,
-                              std::int64_t argument) noexcept {
+void SafetyCycle::write_event(Instant now, Severity severity, CycleEvent event, std::int64_t argument,
+                              std::uint16_t source) noexcept {
     if (log_ != nullptr) {
-        log_->write(now, severity, 0U, static_cast<std::uint16_t>(event), argument);
+        log_->write(now, severity, source, static_cast<std::uint16_t>(event), argument);
     }
 }
 

@@ -2,21 +2,8 @@
 #include "mamori/safety/notice/survival_notifier.hpp"
 
 #include "mamori/kernel/base/text.hpp"
-#include "mamori/kernel/component/execution_context.hpp"
 
 namespace mamori::safety::detail {
-namespace {
-
-LifecycleState read_state(const Component& component) noexcept {
-    const Span<ExecutionContext* const> contexts = component.get_participating_contexts();
-    if (contexts.empty()) {
-        return LifecycleState::kCreated;
-    }
-    const Result<LifecycleState> state = contexts[0U]->get_component_state(component);
-    return state.has_value() ? state.get_value() : LifecycleState::kCreated;
-}
-
-}  // namespace
 
 bool have_names(Span<Component* const> components, Span<const char* const> names) noexcept {
     if (components.size() != names.size()) {
@@ -33,7 +20,7 @@ bool have_names(Span<Component* const> components, Span<const char* const> names
 void report_components(Span<Component* const> components, const ExecutionSupervisor& supervision,
                        Span<std::uint8_t> bytes) noexcept {
     for (std::size_t i = 0U; i < components.size(); ++i) {
-        bytes[i] = to_byte({read_state(*components[i]), supervision.get_local_status(i)});
+        bytes[i] = to_byte({supervision.get_state(i), supervision.get_local_status(i)});
     }
 }
 

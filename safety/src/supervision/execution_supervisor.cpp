@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mamori/safety/supervision/execution_supervisor.hpp"
 
+#include "mamori/kernel/component/execution_context.hpp"
 #include "mamori/safety/base/saturating_increment.hpp"
 
 namespace mamori::safety {
@@ -88,6 +89,7 @@ void ExecutionSupervisor::judge(std::size_t component, Instant now) noexcept {
         static_cast<void>(alive_.report_alive(component));
     }
     alive_.end_cycle(component);
+    slot.has_just_expired = false;
     if (slot.status == LocalStatus::kExpired) {
         return;
     }
@@ -99,11 +101,12 @@ void ExecutionSupervisor::judge(std::size_t component, Instant now) noexcept {
     } else if ((seen & ExecutionRecord::kOutside) != 0U) {
         cause = ExpiryCause::kDeadline;
     } else if (verdict == AliveVerdict::kExpired) {
-        cause = ExpiryCause::kSilent;
+        cause = get_state(component) == LifecycleState::kError ? ExpiryCause::kInError : ExpiryCause::kSilent;
     }
     if (cause != ExpiryCause::kNone) {
         slot.status = LocalStatus::kExpired;
         slot.cause = cause;
+        slot.has_just_expired = true;
         slot.expired_at = now;
     } else {
         slot.status = verdict == AliveVerdict::kHealthy ? LocalStatus::kOk : LocalStatus::kFailed;
@@ -145,6 +148,19 @@ GlobalStatus ExecutionSupervisor::step(Instant now) noexcept {
     }
     global_status_ = worst;
     return worst;
+}
+
+LifecycleState ExecutionSupervisor::get_state(std::size_t component) const noexcept {
+    if (component >= table_components_.size()) {
+        return LifecycleState::kCreated;
+    }
+    const Component& watched = *table_components_[component];
+    const Span<ExecutionContext* const> contexts = watched.get_participating_contexts();
+    if (contexts.empty()) {
+        return LifecycleState::kCreated;
+    }
+    const Result<LifecycleState> state = contexts[0U]->get_component_state(watched);
+    return state.has_value() ? state.get_value() : LifecycleState::kCreated;
 }
 
 std::size_t ExecutionSupervisor::get_first_expired() const noexcept {

@@ -11,13 +11,14 @@ class Reader final : public mamori::Component {
   public:
     constexpr explicit Reader(const char* name) noexcept : Component(name) {}
 };
-class Decider final : public mamori::Component {
+class Decider final : public mamori::Component, public CycleComponent {
   public:
     constexpr Decider() noexcept : Component("decider") {}
 };
 Reader reader{"reader"};
 Reader stranger{"stranger"};
 Decider decider;
+Decider second_decider;
 
 enum class Fault { kFast, kSilent, kLate, kSelfTest, kUndeclared };
 enum class Stop { kGently = 1, kAtOnce = 5 };
@@ -62,6 +63,8 @@ constexpr WatchdogWindow kWindow{
     mamori::Duration{-1},
 #elif defined(MAMORI_DEFECT_WATCHDOG_EMPTY)
     4_ms,
+#elif defined(MAMORI_DEFECT_WATCHDOG_LATE)
+    1_ms + 1_ns,
 #else
     0_ms,
 #endif
@@ -76,17 +79,23 @@ constexpr auto kLateness = tolerated_lateness(mamori::Duration{-1});
 #else
 constexpr auto kLateness = tolerated_lateness(0_ms);
 #endif
-#ifdef MAMORI_DEFECT_LATE_FAULT
+#if defined(MAMORI_DEFECT_LATE_OTHER_FAULT)
+constexpr auto kOnLate = on_late_reaction(raises(OtherFault::kFast));
+#elif defined(MAMORI_DEFECT_LATE_FAULT)
 constexpr auto kOnLate = on_late_reaction(raises(Fault::kUndeclared));
 #else
 constexpr auto kOnLate = on_late_reaction(raises(Fault::kLate));
 #endif
-#ifdef MAMORI_DEFECT_SELF_TEST_FAULT
+#if defined(MAMORI_DEFECT_SELF_TEST_OTHER_FAULT)
+constexpr auto kOnFailed = on_failed_self_test(raises(OtherFault::kFast));
+#elif defined(MAMORI_DEFECT_SELF_TEST_FAULT)
 constexpr auto kOnFailed = on_failed_self_test(raises(Fault::kUndeclared));
 #else
 constexpr auto kOnFailed = on_failed_self_test(raises(Fault::kSelfTest));
 #endif
-#ifdef MAMORI_DEFECT_BRAKE_FAULT
+#if defined(MAMORI_DEFECT_BRAKE_OTHER_FAULT)
+constexpr auto kOnBrakes = on_unconfirmed_brakes(raises(OtherFault::kFast));
+#elif defined(MAMORI_DEFECT_BRAKE_FAULT)
 constexpr auto kOnBrakes = on_unconfirmed_brakes(raises(Fault::kUndeclared));
 #else
 constexpr auto kOnBrakes = on_unconfirmed_brakes(raises(Fault::kFast));
@@ -116,7 +125,18 @@ constexpr auto kCycle = cycle(kStops, kBrakes, kWindow, kFeedback, kLateness, kO
 
 constexpr auto kSystem = mamori::safety::system(
     mamori::frame(1_ms),
+#if defined(MAMORI_DEFECT_OTHER_CORE)
+    mamori::window("read", 0_us, 1_ms, mamori::core(1U), mamori::budget(1_ms), mamori::run(reader)),
+    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(decider)), kFaults,
+#elif defined(MAMORI_DEFECT_TWO_DECIDERS)
+    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(reader, decider, second_decider)),
+    kFaults,
+#elif defined(MAMORI_DEFECT_NO_MODE)
+    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(reader, decider)),
+    mamori::safe_mode("halt", mamori::runs(decider)), kFaults,
+#else
     mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(reader, decider)), kFaults,
+#endif
 #ifndef MAMORI_DEFECT_UNANSWERED
     mamori::react(Fault::kFast, kAnswer, mamori::within(1_ms)),
 #endif

@@ -18,7 +18,7 @@ from mamori_trace.base.text_file import read_text
 SCHEMA = "mamori.table/4"
 MAX_BYTES = 50_000_000
 WAYS = ("same_window", "later_window", "next_frame", "crossing", "queue")
-KINDS = ("periodic", "event_driven", "triggered", "invalid")
+KINDS = ("periodic", "event_driven", "triggered", "system", "invalid")
 ABORT_POLICIES = ("spec_only", "openrtm_compat")
 DIRECTIONS = ("in", "out")
 

@@ -174,13 +174,20 @@ using namespace mamori::literals;
 // Shared by both programs: data id, major frame, a notice in each tenth frame, components in table order.
 constexpr mamori::safety::NoticeNode kArm{0xA4A1U, 1_ms, 10U, std::array{"reader", "guard", "supervisor", "notifier"}};
 
-// Node "arm": runs after the supervisor, in its window; supervision has the storage of the table.
+// Node "arm": runs after the supervision, in its window or a later one; supervision has the storage of the table.
 extern mamori::safety::ExecutionSupervisor supervision;
 mamori::safety::SurvivalNotifier<kArm> notifier{"notifier", supervision};
 
 // Other node: tolerance, late after two periods, silent after three, ten periods to the first notice.
 constexpr mamori::safety::NoticeLimits kLimits{5_ms, 2U, 3U, 10U};
 mamori::safety::NodeMonitor<kArm, kLimits> arm_monitor{"arm"};
+
+mamori::Status step_supervision(mamori::safety::ExecutionSupervisor& all, mamori::ContextHandle context) noexcept {
+    static_cast<void>(all.step(context.now));
+    return mamori::Status::kOk;  // any other result: not called again until it is reset
+}
+mamori::SystemFunction<&step_supervision> supervisor{"supervisor", supervision};
+constexpr auto kSupervise = mamori::system_window("supervise", 300_us, 50_us, mamori::budget(40_us), supervisor);
 
 bool is_arm_safe() {
     return arm_monitor.get_status().is_proven;  // else status.first and status.component name the cause

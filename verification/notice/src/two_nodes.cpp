@@ -39,25 +39,21 @@ class Worker final : public Component {
 
 extern ExecutionSupervisor g_supervision;
 
-class Supervisor final : public Component {
-  public:
-    constexpr Supervisor() noexcept : Component("supervisor") {}
-    Status on_execute(ContextHandle context) noexcept override {
-        static_cast<void>(g_supervision.step(context.now));
-        return Status::kOk;
-    }
-};
+Status supervise_all(ExecutionSupervisor& supervision, ContextHandle context) noexcept {
+    static_cast<void>(supervision.step(context.now));
+    return Status::kOk;
+}
 
 Worker g_reader{"reader"};
 Worker g_guard{"guard"};
 Worker g_planner{"planner"};
-Supervisor g_supervisor;
+SystemFunction<&supervise_all> g_supervisor{"supervisor", g_supervision};
 SurvivalNotifier<kArm> g_notifier{"notifier", g_supervision};
-constexpr auto kArmSystem =
-    system(frame(1_ms), window("read", 0_us, 100_us, budget(50_us), run(g_reader)),
-           window("guard", 100_us, 100_us, budget(50_us), run(g_guard)),
-           window("plan", 200_us, 100_us, budget(50_us), run(g_planner)),
-           window("supervise", 300_us, 100_us, budget(50_us), run(g_supervisor, g_notifier)));
+constexpr auto kArmSystem = system(frame(1_ms), window("read", 0_us, 100_us, budget(50_us), run(g_reader)),
+                                   window("guard", 100_us, 100_us, budget(50_us), run(g_guard)),
+                                   window("plan", 200_us, 100_us, budget(50_us), run(g_planner)),
+                                   system_window("supervise", 300_us, 50_us, budget(50_us), g_supervisor),
+                                   window("notify", 350_us, 50_us, budget(50_us), run(g_notifier)));
 MAMORI_CHECK(kArmSystem);
 ExecutionStorageFor<kArmSystem> g_storage;
 ExecutionSupervisor g_supervision{g_storage, 10_us};

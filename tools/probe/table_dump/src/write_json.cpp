@@ -21,10 +21,10 @@ using json::write_rows;
 
 constexpr const char* kSchema = "mamori.table/4";
 
-const char* get_name(ExecutionKind kind) {
-    switch (kind) {
+const char* get_kind(const WindowRow& row) {
+    switch (row.kind) {
         case ExecutionKind::kPeriodic:
-            return "periodic";
+            return row.is_system ? "system" : "periodic";
         case ExecutionKind::kEventDriven:
             return "event_driven";
         case ExecutionKind::kOther:
@@ -41,7 +41,7 @@ std::string make_window(const SystemView& view, std::size_t index) {
     }
     return "{\"name\": " + quote(to_text(row.name)) + ", \"core\": " + std::to_string(row.core) +
            ", \"background_of\": " + (is_background(row) ? std::to_string(row.background_of) : "null") +
-           ", \"partition\": " + quote(to_text(row.partition)) + ", \"kind\": \"" + get_name(row.kind) +
+           ", \"partition\": " + quote(to_text(row.partition)) + ", \"kind\": \"" + get_kind(row) +
            "\", \"offset_ns\": " + std::to_string(row.offset.ns) +
            ", \"length_ns\": " + std::to_string(row.length.ns) +
            ", \"period_ns\": " + std::to_string(row.period.ns) +

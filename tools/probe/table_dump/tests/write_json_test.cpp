@@ -82,6 +82,25 @@ TEST(WriteJsonTest, ABackgroundWindowContainsItsCoreAndItsProcessorTime) {
     EXPECT_EQ(table["windows"][1]["budget_ns"], 3'000'000);
 }
 
+Status do_nothing(ContextHandle) noexcept {
+    return Status::kOk;
+}
+
+TEST(WriteJsonTest, ASystemWindowIsMarkedAndContainsItsFunction) {
+    verifies("SWR-KRN-096");
+    SystemFunction<&do_nothing> function{"send"};
+    const auto system_with_function =
+        system(frame(10_ms), system_window("notice", 1_ms, 2_ms, budget(1_ms), function));
+
+    const json table = dump(make_view(system_with_function));
+
+    EXPECT_EQ(table["windows"][0]["name"], "notice");
+    EXPECT_EQ(table["windows"][0]["kind"], "system");
+    EXPECT_EQ(table["components"][0]["name"], "send");
+    EXPECT_EQ(table["components"][0]["window"], 0);
+    EXPECT_TRUE(table["findings"].empty());
+}
+
 TEST(WriteJsonTest, ComponentsContainTheirWindowWorstCaseAndPorts) {
     verifies("SWR-TAB-001");
     const json table = dump(make_view(kSystem));

@@ -37,6 +37,7 @@
 #include "mamori/kernel/system/reaction_part.hpp"
 #include "mamori/kernel/system/system_part.hpp"
 #include "mamori/kernel/system/system_rules.hpp"
+#include "mamori/kernel/system/system_window.hpp"
 #include "mamori/kernel/system/window_part.hpp"
 #include "mamori/kernel/table/index_of.hpp"
 #include "mamori/kernel/table/mode_builder.hpp"

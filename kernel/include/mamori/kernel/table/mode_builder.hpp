@@ -3,7 +3,7 @@
 /// Fills the derived fields of the mode rows: converts names to indices and determines the modes of each
 /// component and connection. Not for users.
 ///
-/// @satisfies SWR-MOD-001      Design: docs/design/modes.md#the-table
+/// @satisfies SWR-MOD-001, SWR-KRN-098      Design: docs/design/modes.md#the-table
 #ifndef MAMORI_KERNEL_MODE_BUILDER_HPP
 #define MAMORI_KERNEL_MODE_BUILDER_HPP
 
@@ -31,7 +31,7 @@ constexpr void resolve_names(Table& table) noexcept {
 template <typename Table>
 constexpr void resolve_members(Table& table) noexcept {
     for (auto& component : table.component_rows) {
-        component.modes = 0U;
+        component.modes = table.windows[component.window].is_system ? kEveryMode : 0U;
     }
     for (ModeMemberRow& member : table.modes.members) {
         for (std::size_t i = 0U; i < table.components.size(); ++i) {

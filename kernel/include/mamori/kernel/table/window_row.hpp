@@ -2,7 +2,8 @@
 /// @file
 /// Rows of a system table for the schedule: windows and their components.
 ///
-/// @satisfies SWR-KRN-017, SWR-KRN-080, SWR-KRN-083      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-017, SWR-KRN-080, SWR-KRN-083, SWR-KRN-096      Design:
+/// docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_WINDOW_ROW_HPP
 #define MAMORI_KERNEL_WINDOW_ROW_HPP
 
@@ -61,6 +62,7 @@ struct WindowRow {
     bool has_deliveries{true};    ///< one of its outputs feeds a queue or a crossing
     bool has_hand_on{false};      ///< one of its connections is forward in the window
     bool has_rate{false};         ///< `rate_hz` is declared
+    bool is_system{false};        ///< runs a SystemFunction in all modes
 };
 
 /// Whether ordinary windows of its core preempt the window.

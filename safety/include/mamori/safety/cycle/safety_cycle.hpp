@@ -4,7 +4,8 @@
 /// safe-state machine, commands its outputs and services the watchdog on proven health, always in this order.
 /// A machine derives its supervisor and adds only its inputs and outputs.
 ///
-/// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009
+/// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009,
+/// SWR-CYC-010
 /// Design:   docs/design/safety_cycle.md#order
 #ifndef MAMORI_SAFETY_SAFETY_CYCLE_HPP
 #define MAMORI_SAFETY_SAFETY_CYCLE_HPP
@@ -19,17 +20,25 @@
 
 namespace mamori::safety {
 
-/// Codes of the events that the cycle writes; arguments in brackets. Numbers are never reused.
+/// Codes of the events that the cycle writes with source 0; arguments in brackets. Numbers are never reused.
 enum class CycleEvent : std::uint16_t {
     kStateEntered,      ///< [SafeState]
     kFaultLatched,      ///< [fault]
     kReactionBegun,     ///< [Reaction], the severest since the start
     kWatchdogRefused,   ///< [GlobalStatus]
     kAssumptionFailed,  ///< [AssumptionIndex]
+    kComponentExpired,  ///< [ExpiryCause]; source: index of the component in the table plus 1
 };
 /// Spelling of an event in logs, indexed by its code.
-inline constexpr std::array<const char*, 5U> kCycleEventNames{
-    "state_entered", "fault_latched", "reaction_begun", "watchdog_refused", "assumption_failed"};
+inline constexpr std::array<const char*, 6U> kCycleEventNames{"state_entered",     "fault_latched",
+                                                              "reaction_begun",    "watchdog_refused",
+                                                              "assumption_failed", "component_expired"};
+
+/// Which component expired, and why.
+struct ComponentExpiry {
+    std::size_t component{kNoIndex};  ///< index in the table; kNoIndex: none
+    ExpiryCause cause{ExpiryCause::kNone};
+};
 
 /// What the machine reports in one cycle. The defaults permit nothing.
 struct CycleInputs {
@@ -46,7 +55,7 @@ struct CycleInputs {
 
 /// Thread safety: none; the executive calls it. Time: O(components + faults * reactions).
 /// Memory:        no heap; all state of the decision is in the SafetyState.
-class SafetyCycle : public Component {
+class SafetyCycle : public Component, public CycleComponent {
   public:
     /// Confirmations and supervision of the table. @return kOk; kPreconditionNotMet (a second call while a
     /// fault is latched or a component is watched).
@@ -63,6 +72,9 @@ class SafetyCycle : public Component {
     Reaction get_reaction() const noexcept { return worst_reaction_; }
     /// Longest time from a latched fault to the cycle that finds its reaction in the applied outputs.
     Duration get_longest_reaction() const noexcept { return longest_reaction_; }
+    /// Last expiry of a component, also after it was acknowledged. While the fault that a component raises is
+    /// latched, its further expiries do not count.
+    const ComponentExpiry& get_last_expiry() const noexcept { return last_expiry_; }
 
   protected:
     /// @param[in] name static storage. @param[in] state of the table that runs this component, static
@@ -97,6 +109,7 @@ class SafetyCycle : public Component {
     SelfTestStatus check_assumptions(Instant now) noexcept;
     void report_faults(SelfTestStatus self_test, Instant now) noexcept;
     bool find_presence(FaultIndex fault, SelfTestStatus self_test, Instant now) noexcept;
+    void record_expiries(Instant now) noexcept;
     bool is_expired(const SuperviseRow& row) noexcept;
     Status require_healing(const SuperviseRow& row) noexcept;
     void follow_reset(bool reset_button) noexcept;
@@ -104,7 +117,8 @@ class SafetyCycle : public Component {
     bool is_sto_unconfirmed(bool has_torque, Instant now) noexcept;
     void measure_reaction(const ReactionDemand& demand, const StopOutputs& applied, Instant now) noexcept;
     void service_watchdog(GlobalStatus health, bool is_trustworthy, Instant now) noexcept;
-    void write_event(Instant now, Severity severity, CycleEvent event, std::int64_t argument) noexcept;
+    void write_event(Instant now, Severity severity, CycleEvent event, std::int64_t argument,
+                     std::uint16_t source = 0U) noexcept;
 
     SafetyState& state_;
     EventLog* log_;
@@ -114,6 +128,7 @@ class SafetyCycle : public Component {
     FaultIndex measured_fault_{kNoFault};  ///< its reaction was found in the outputs
     Reaction worst_reaction_{Reaction::kNone};
     Duration longest_reaction_{0};
+    ComponentExpiry last_expiry_{};
     bool has_stepped_{false};
     bool was_torque_wanted_{false};  ///< in the frame before
     bool is_self_testing_{false};

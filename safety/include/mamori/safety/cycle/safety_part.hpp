@@ -21,6 +21,13 @@
 
 namespace mamori::safety {
 
+/// Base of SafetyCycle, by which the check of a table finds its component.
+class CycleComponent {
+  protected:
+    constexpr CycleComponent() noexcept = default;
+    ~CycleComponent() = default;
+};
+
 /// Supervision of one component.
 struct SuperviseRow {
     WatchRow watch{};
@@ -81,6 +88,7 @@ constexpr Raises<Fault> raises(Fault fault) noexcept {
 /// Kinds of parts.
 struct SuperviseTag {};
 struct ConfirmTag {};
+struct CycleTag {};
 
 /// Made by supervise().
 template <typename... Faults>
@@ -132,39 +140,37 @@ struct TorqueFeedback {
 constexpr TorqueFeedback torque_feedback(Duration limit) noexcept {
     return {limit};
 }
-/// Made by on_late_reaction().
-struct OnLateReaction {
+/// Made by the functions below. @tparam Tag what is wrong. @tparam Fault enumeration of the fault.
+template <typename Tag, typename Fault>
+struct OnFault {
     FaultIndex fault;
 };
+/// What is wrong.
+struct LateReactionTag {};
+struct FailedSelfTestTag {};
+struct UnconfirmedBrakesTag {};
+
 /// Fault of a reaction that starts later than its within(...). @param[in] fault raises(...).
 template <typename Fault>
-constexpr OnLateReaction on_late_reaction(Raises<Fault> fault) noexcept {
+constexpr OnFault<LateReactionTag, Fault> on_late_reaction(Raises<Fault> fault) noexcept {
     return {detail::to_fault(fault.fault)};
 }
-/// Made by on_failed_self_test().
-struct OnFailedSelfTest {
-    FaultIndex fault;
-};
 /// Fault of a self test or an assumption that fails. @param[in] fault raises(...).
 template <typename Fault>
-constexpr OnFailedSelfTest on_failed_self_test(Raises<Fault> fault) noexcept {
+constexpr OnFault<FailedSelfTestTag, Fault> on_failed_self_test(Raises<Fault> fault) noexcept {
     return {detail::to_fault(fault.fault)};
 }
-
-/// Made by on_unconfirmed_brakes().
-struct OnUnconfirmedBrakes {
-    FaultIndex fault;
-};
 /// Fault of brakes whose contacts do not report "closed" within BrakeLimits::closes_within after the command;
 /// never with brakes without contacts. @param[in] fault raises(...).
 template <typename Fault>
-constexpr OnUnconfirmedBrakes on_unconfirmed_brakes(Raises<Fault> fault) noexcept {
+constexpr OnFault<UnconfirmedBrakesTag, Fault> on_unconfirmed_brakes(Raises<Fault> fault) noexcept {
     return {detail::to_fault(fault.fault)};
 }
 
-/// Made by cycle().
+/// Made by cycle(). @tparam Faults enumerations of its three faults.
+template <typename... Faults>
 struct CyclePart {
-    using Types = extension::ExtensionTypes<CyclePart>;
+    using Types = extension::ExtensionTypes<CycleTag, Faults...>;
     CycleRow row{};
 };
 
@@ -185,15 +191,32 @@ constexpr void apply(CycleRow& row, TorqueFeedback option) noexcept {
 constexpr void apply(CycleRow& row, ToleratedLateness option) noexcept {
     row.lateness_max = option.limit;
 }
-constexpr void apply(CycleRow& row, OnLateReaction option) noexcept {
+template <typename Fault>
+constexpr void apply(CycleRow& row, OnFault<LateReactionTag, Fault> option) noexcept {
     row.late_fault = option.fault;
 }
-constexpr void apply(CycleRow& row, OnFailedSelfTest option) noexcept {
+template <typename Fault>
+constexpr void apply(CycleRow& row, OnFault<FailedSelfTestTag, Fault> option) noexcept {
     row.self_test_fault = option.fault;
 }
-constexpr void apply(CycleRow& row, OnUnconfirmedBrakes option) noexcept {
+template <typename Fault>
+constexpr void apply(CycleRow& row, OnFault<UnconfirmedBrakesTag, Fault> option) noexcept {
     row.brake_fault = option.fault;
 }
+
+/// Number of `Options` that are OnFault of `Tag`, and enumeration of the first.
+template <typename Tag, typename... Options>
+struct OnFaultOf {
+    static constexpr std::size_t kCount = 0U;
+    using Type = void;
+};
+template <typename Tag, typename Option, typename... Options>
+struct OnFaultOf<Tag, Option, Options...> : OnFaultOf<Tag, Options...> {};
+template <typename Tag, typename Fault, typename... Options>
+struct OnFaultOf<Tag, OnFault<Tag, Fault>, Options...> {
+    static constexpr std::size_t kCount = 1U + OnFaultOf<Tag, Options...>::kCount;
+    using Type = Fault;
+};
 
 }  // namespace detail
 
@@ -202,7 +225,7 @@ constexpr void apply(CycleRow& row, OnUnconfirmedBrakes option) noexcept {
 ///                    WatchdogWindow, torque_feedback(...), tolerated_lateness(...), on_late_reaction(...),
 ///                    on_failed_self_test(...), on_unconfirmed_brakes(...).
 template <typename... Options>
-constexpr CyclePart cycle(const Options&... options) noexcept {
+constexpr auto cycle(const Options&... options) noexcept {
     static_assert(extension::kIsSaidOnce<StopBounds, Options...>, "a cycle states its StopBounds once");
     static_assert(extension::kIsSaidOnce<BrakeLimits, Options...>, "a cycle states its BrakeLimits once");
     static_assert(extension::kIsSaidOnce<WatchdogWindow, Options...>,
@@ -211,13 +234,16 @@ constexpr CyclePart cycle(const Options&... options) noexcept {
                   "a cycle states torque_feedback(...) once");
     static_assert(extension::kIsSaidOnce<ToleratedLateness, Options...>,
                   "a cycle states tolerated_lateness(...) once");
-    static_assert(extension::kIsSaidOnce<OnLateReaction, Options...>,
+    static_assert(detail::OnFaultOf<LateReactionTag, Options...>::kCount == 1U,
                   "a cycle states on_late_reaction(...) once");
-    static_assert(extension::kIsSaidOnce<OnFailedSelfTest, Options...>,
+    static_assert(detail::OnFaultOf<FailedSelfTestTag, Options...>::kCount == 1U,
                   "a cycle states on_failed_self_test(...) once");
-    static_assert(extension::kIsSaidOnce<OnUnconfirmedBrakes, Options...>,
+    static_assert(detail::OnFaultOf<UnconfirmedBrakesTag, Options...>::kCount == 1U,
                   "a cycle states on_unconfirmed_brakes(...) once");
-    CyclePart part{};
+    CyclePart<typename detail::OnFaultOf<LateReactionTag, Options...>::Type,
+              typename detail::OnFaultOf<FailedSelfTestTag, Options...>::Type,
+              typename detail::OnFaultOf<UnconfirmedBrakesTag, Options...>::Type>
+        part{};
     (detail::apply(part.row, options), ...);
     return part;
 }

@@ -3,13 +3,14 @@
 /// MAMORI_SAFETY_CHECK: rejects a constexpr table of mamori::safety::system() that violates a rule of the
 /// kernel (table_rules.hpp) or one of the rules below. The message names the faulty element.
 ///
-/// @satisfies SWR-CYC-002      Design: docs/design/safety_cycle.md#the-table
+/// @satisfies SWR-CYC-002, SWR-CYC-011      Design: docs/design/safety_cycle.md#the-table
 #ifndef MAMORI_SAFETY_SAFETY_RULES_HPP
 #define MAMORI_SAFETY_SAFETY_RULES_HPP
 
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
 #include "mamori/kernel/system/system_extension.hpp"
 #include "mamori/safety/cycle/system.hpp"
@@ -37,6 +38,9 @@ enum class SafetyRule : std::uint8_t {
     kTorqueFeedbackInRange,   ///< cycle
     kLatenessInRange,         ///< cycle
     kCycleFaultDeclared,      ///< cycle
+    kCycleComponentOnce,      ///< cycle
+    kWatchdogFitsPeriod,      ///< cycle
+    kSupervisedOnCore,        ///< supervise
 };
 
 /// The first violated rule; kNone when there is none.
@@ -146,6 +150,53 @@ constexpr SafetyFinding check_safety(const Table& table) noexcept {
 
 }  // namespace detail
 
+namespace detail {
+
+template <const auto& kTable, std::size_t... kIndices>
+constexpr std::size_t count_cycles(std::index_sequence<kIndices...>) noexcept {
+    return (std::size_t{std::is_base_of_v<CycleComponent, extension::ComponentAt<kTable, kIndices>>} + ... +
+            0U);
+}
+/// Sum of the indices of all cycles: the index of the only one.
+template <const auto& kTable, std::size_t... kIndices>
+constexpr std::size_t find_cycle(std::index_sequence<kIndices...>) noexcept {
+    return ((std::is_base_of_v<CycleComponent, extension::ComponentAt<kTable, kIndices>> ? kIndices : 0U) +
+            ... + 0U);
+}
+
+/// Rules of the component that executes the table. @param[in] window index of its window.
+template <typename Table>
+constexpr SafetyFinding check_cycle_window(const Table& table, std::size_t window) noexcept {
+    const Duration period = table.windows[window].period;
+    if (period < table.cycle.watchdog.shortest || period > table.cycle.watchdog.longest) {
+        return {SafetyRule::kWatchdogFitsPeriod, 0U};
+    }
+    for (std::size_t i = 0U; i < table.supervised.size(); ++i) {
+        const std::size_t index = find_component(table.components, table.supervised[i].watch.component);
+        if (table.windows[table.component_rows[index].window].core != table.windows[window].core) {
+            return {SafetyRule::kSupervisedOnCore, i};
+        }
+    }
+    return {};
+}
+
+template <const auto& kTable>
+constexpr SafetyFinding check_cycle_component() noexcept {
+    using Indices = std::make_index_sequence<kTable.components.size()>;
+    constexpr std::size_t kCount = count_cycles<kTable>(Indices{});
+    if (kCount != 1U) {
+        return {SafetyRule::kCycleComponentOnce, kCount};
+    }
+    return check_cycle_window(kTable, kTable.component_rows[find_cycle<kTable>(Indices{})].window);
+}
+template <const auto& kTable>
+constexpr SafetyFinding check_safety_of() noexcept {
+    const SafetyFinding finding = check_safety(kTable);
+    return finding.rule == SafetyRule::kNone ? check_cycle_component<kTable>() : finding;
+}
+
+}  // namespace detail
+
 /// A row as a compiler message shows it, 0 is the first of its kind.
 template <std::size_t kRow>
 struct TableRow {};
@@ -183,6 +234,15 @@ struct SafetyTableIsSound : std::true_type {
     static_assert(kRule != SafetyRule::kLatenessInRange, "the tolerated lateness is not negative");
     static_assert(kRule != SafetyRule::kCycleFaultDeclared,
                   "cycle(...) raises a fault that faults<...>() does not declare");
+    static_assert(
+        kRule != SafetyRule::kCycleComponentOnce,
+        "a window of the table runs exactly one component derived from SafetyCycle; the row is their "
+        "number");
+    static_assert(kRule != SafetyRule::kWatchdogFitsPeriod,
+                  "the period of the safety cycle is inside the window of the watchdog");
+    static_assert(kRule != SafetyRule::kSupervisedOnCore,
+                  "a supervised component runs on the core and in the class of the safety cycle; other cores "
+                  "have a supervision of their own");
 };
 
 namespace detail {
@@ -194,7 +254,8 @@ struct Shown {
 
 template <const auto& kTable, SafetyRule kRule, std::size_t kRow>
 constexpr auto show_faulty() noexcept {
-    if constexpr (kRule >= SafetyRule::kSupervisedOnce && kRule <= SafetyRule::kRaisedFaultDeclared) {
+    if constexpr ((kRule >= SafetyRule::kSupervisedOnce && kRule <= SafetyRule::kRaisedFaultDeclared) ||
+                  kRule == SafetyRule::kSupervisedOnCore) {
         constexpr std::size_t kIndex =
             find_component(kTable.components, kTable.supervised[kRow].watch.component);
         return Shown<extension::ComponentAt<kTable, kIndex>>{};
@@ -216,7 +277,7 @@ constexpr bool keeps_safety_rules() noexcept {
     if constexpr (extension::keeps_rules<kTable>()) {
         using Types = typename std::remove_const_t<std::remove_reference_t<decltype(kTable)>>::Types;
         constexpr SafetyFinding kFinding = extension::kHasReactionsOf<Reaction, Types>
-                                               ? detail::check_safety(kTable)
+                                               ? detail::check_safety_of<kTable>()
                                                : SafetyFinding{SafetyRule::kReactionKnown, 0U};
         using Faulty = typename decltype(detail::show_faulty<kTable, kFinding.rule, kFinding.row>())::Type;
         return SafetyTableIsSound<kFinding.rule, Faulty>::value;

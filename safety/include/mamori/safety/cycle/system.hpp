@@ -31,7 +31,7 @@ namespace mamori::safety {
 template <typename PartTypes>
 struct SafetySystem : DescribedSystem<PartTypes> {
     static constexpr std::size_t kFaultCount = PartTypes::Faults::kSize;
-    static constexpr std::size_t kCycleCount = extension::kPartCount<CyclePart, PartTypes>;
+    static constexpr std::size_t kCycleCount = extension::kPartCount<CycleTag, PartTypes>;
     std::array<SuperviseRow, extension::kPartCount<SuperviseTag, PartTypes>> supervised{};
     std::array<ConfirmRow, extension::kPartCount<ConfirmTag, PartTypes>> confirmations{};
     CycleRow cycle{};
@@ -55,9 +55,9 @@ constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
     }
     builder.table.confirmations[next] = part.row;
 }
-template <typename Types>
+template <typename Types, typename... Faults>
 constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
-                        const CyclePart& part) noexcept {
+                        const CyclePart<Faults...>& part) noexcept {
     builder.table.cycle = part.row;
 }
 

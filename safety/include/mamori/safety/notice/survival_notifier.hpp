@@ -30,7 +30,7 @@ void report_components(Span<Component* const> components, const ExecutionSupervi
 }  // namespace detail
 
 /// Sends the notice. Connect `notice` to one link component per addressee, or to receivers in the same table.
-/// Run it in the window of ExecutionSupervisor::step(), after it.
+/// Run it after ExecutionSupervisor::step(), in its window or a later one.
 ///
 /// @tparam kNode constexpr NoticeNode of static storage duration, which describes the table of this
 /// component.

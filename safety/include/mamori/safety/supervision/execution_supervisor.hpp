@@ -41,7 +41,16 @@ enum class SupervisionScope : std::uint8_t {
 };
 
 /// Why a component expired.
-enum class ExpiryCause : std::uint8_t { kNone, kBudgetOverrun, kDeadline, kSilent };
+enum class ExpiryCause : std::uint8_t {
+    kNone,
+    kBudgetOverrun,  ///< it was aborted, or returned after the budget of its window
+    kDeadline,       ///< a run was shorter or longer than its limits
+    kSilent,         ///< it does not run
+    kInError,        ///< it does not run, because its state is Error
+};
+/// Spelling of a cause in logs, indexed by its number.
+inline constexpr std::array<const char*, 5U> kExpiryCauseNames{"none", "budget_overrun", "deadline", "silent",
+                                                               "in_error"};
 
 /// Limits of one component.
 struct ComponentLimits {
@@ -68,6 +77,7 @@ struct ComponentSlot {
     bool is_conspicuous{true};                    ///< to be weighed, even after runs within their limits
     LocalStatus status{LocalStatus::kOk};
     ExpiryCause cause{ExpiryCause::kNone};
+    bool has_just_expired{false};  ///< in the last step
     Instant expired_at{};
 };
 
@@ -190,6 +200,16 @@ class ExecutionSupervisor final : public ExecutionObserver {
     /// @param[in] component as above. @return why it expired; kNone unless it did.
     ExpiryCause get_cause(std::size_t component) const noexcept { return components_[component].cause; }
     ExpiryCause get_cause(const Component& component) const noexcept { return get_cause(find(component)); }
+
+    /// @param[in] component as above. @return whether its expiry was found by the last step().
+    bool has_just_expired(std::size_t component) const noexcept {
+        return components_[component].has_just_expired;
+    }
+
+    /// @param[in] component index in the table. @return its life-cycle state; kCreated when it has no
+    /// context,
+    ///            or the storage is not of a table.
+    LifecycleState get_state(std::size_t component) const noexcept;
 
     /// @return component that expired first of those still expired, the lowest index of one step;
     ///         kNoComponent when none is.
