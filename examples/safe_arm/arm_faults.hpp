@@ -49,6 +49,10 @@ constexpr std::uint32_t to_bit(ArmFault fault) noexcept {
     return std::uint32_t{1U} << to_index(fault);
 }
 
+/// Faults that need no reset without torque: there, they only prevent the start.
+inline constexpr std::uint32_t kPermissions =
+    to_bit(ArmFault::kProtectiveStop) | to_bit(ArmFault::kEnableLost);
+
 /// Spelling of a fault in logs and reports, indexed by its number.
 inline constexpr std::array<const char*, kArmFaultCount> kArmFaultNames{
     "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",      "FollowingError", "Overspeed",

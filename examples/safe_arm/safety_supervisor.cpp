@@ -24,8 +24,8 @@ CycleInputs SafetySupervisor::read_inputs(Instant at) noexcept {
     inputs.reset_button = now.reset_button || ends_hold;
     has_ended_hold_ = ends_hold;
     inputs.may_start = arm_state.read().is_setpoint_near && now.panel_faults == 0U;
-    inputs.can_hold =
-        true;  // by the gate; one valid encoder channel suffices, an unknown position demands STO
+    // By the gate. One valid encoder channel suffices; an unknown position demands STO.
+    inputs.can_hold = true;
     inputs.applied = {drive.read().torque_enable, drive.read().brake_release,
                       drive.read().torque_enable && drive.read().source == TorqueSource::kStopLoop, false};
     return inputs;
@@ -51,12 +51,8 @@ bool SafetySupervisor::is_present(FaultIndex fault) noexcept {
         // A stopped machine tests its brakes again after a reset; the fault must not refuse that reset.
         return is_brake_test_old_ && get_state() != SafeState::kSafe && get_state() != SafeState::kSelfTest;
     }
-    const bool is_permission =
-        fault == to_index(ArmFault::kProtectiveStop) || fault == to_index(ArmFault::kEnableLost);
-    if (is_permission && !is_active()) {
-        return false;  // an arm without torque is not started, and needs no reset
-    }
-    const std::uint32_t faults = arm_state.read().faults | reading.read().panel_faults;
+    std::uint32_t faults = arm_state.read().faults | reading.read().panel_faults;
+    faults &= is_active() ? ~0U : ~kPermissions;
     return (faults & (std::uint32_t{1U} << fault)) != 0U;
 }
 
