@@ -4,8 +4,8 @@
 /// safe-state machine, commands its outputs and services the watchdog on proven health, always in this order.
 /// A machine derives its supervisor and adds only its inputs and outputs.
 ///
-/// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009,
-/// SWR-CYC-010
+/// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009
+/// @satisfies SWR-CYC-010
 /// Design:   docs/design/safety_cycle.md#order
 #ifndef MAMORI_SAFETY_SAFETY_CYCLE_HPP
 #define MAMORI_SAFETY_SAFETY_CYCLE_HPP
