@@ -8,10 +8,10 @@
 ///     static mamori::SystemFunction<&send_all> sender{"sender", link};
 ///     ... mamori::system_window("send", 900_us, 50_us, mamori::budget(40_us), sender)
 ///
-/// @satisfies SWR-KRN-096, SWR-KRN-097, SWR-KRN-098, SWR-KRN-099      Design:
-/// docs/design/kernel.md#system-windows
-#ifndef MAMORI_KERNEL_SYSTEM_WINDOW_HPP
-#define MAMORI_KERNEL_SYSTEM_WINDOW_HPP
+/// @satisfies SWR-KRN-096, SWR-KRN-097, SWR-KRN-098, SWR-KRN-099
+/// Design: docs/design/kernel.md#system-windows
+#ifndef MAMORI_KERNEL_WINDOW_SYSTEM_HPP
+#define MAMORI_KERNEL_WINDOW_SYSTEM_HPP
 
 #include <cstddef>
 #include <type_traits>
@@ -123,4 +123,4 @@ constexpr auto system_window(const char* name, Duration offset, Duration length,
 
 }  // namespace mamori
 
-#endif  // MAMORI_KERNEL_SYSTEM_WINDOW_HPP
+#endif  // MAMORI_KERNEL_WINDOW_SYSTEM_HPP
