@@ -221,7 +221,8 @@ def list_verify_steps(campaign: Action) -> tuple[Step, ...]:
 def list_test_steps(project: Project, campaign: Action, tier: Tier, mutation_minutes: int | None = None) -> tuple[Step, ...]:
     """@param mutation_minutes limit of the step that tries all mutants without a stored result; None: no limit."""
     # The compile-must-fail tests take a third of the time of all C++ tests, and depend only on headers.
-    fewer = ("--exclude-regex", "compile_fail") if tier == Tier.QUICK else ()
+    without_compiling = ("--exclude-regex", "compile_fail")
+    fewer = without_compiling if tier == Tier.QUICK else ()
     limit = () if mutation_minutes is None else ("--minutes", str(mutation_minutes))
     steps = (
         # First step, because it writes the stored rows: the inputs of all other results are recorded afterwards.
@@ -249,7 +250,7 @@ def list_test_steps(project: Project, campaign: Action, tier: Tier, mutation_min
         comparison_step(),
         safe_state_step(),
         build_step(SANITIZED, Tier.GATE),
-        ctest_step(SANITIZED, Tier.GATE),
+        ctest_step(SANITIZED, Tier.GATE, *without_compiling),
         faults_step(SANITIZED, Tier.GATE),
         *race_steps(),
         proof_step("determinism proof", "determinism", needs=(BUILD, f"build {SANITIZED}")),
