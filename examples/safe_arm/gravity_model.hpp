@@ -11,9 +11,9 @@
 
 namespace safe_arm {
 
-/// @param[in] position_rad of the joints, finite.
+/// @param[in] position_rad of the joints, up to 1e6; another one counts as 0.
 /// @return torque of each joint that holds the arm [N m], without friction.
-/// Calling context: any; no state. Time: O(joints), with one sine and one cosine each.
+/// Calling context: any; no state. Time: O(joints).
 JointVector calc_gravity_torque(const JointVector& position_rad) noexcept;
 
 }  // namespace safe_arm

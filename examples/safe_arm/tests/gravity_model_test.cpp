@@ -3,6 +3,7 @@
 // of the simulated arm, Simbody and KDL, and with a calculation by hand.
 #include "gravity_model.hpp"
 
+#include <limits>
 #include <random>
 
 #include "mamori/simbody_sim/arm_dynamics.hpp"
@@ -45,6 +46,18 @@ TEST(GravityModelTest, AnUprightArmNeedsAlmostNoTorque) {
     for (const std::size_t j : {0U, 1U, 3U, 4U, 5U, 6U}) {
         EXPECT_NEAR(torque_nm[j], 0.0, 1e-12)
             << j << ": the wrist is 2.5 mm next to the axis of the arm, in x";
+    }
+}
+
+TEST(GravityModelTest, APositionThatIsNoAngleCountsAsZero) {
+    verifies("SWR-SAF-040", Technique::kErrorGuessing);
+    JointVector position_rad{0.0, 0.5, 0.0, 0.4, 0.0, 0.3, 0.0};
+    position_rad[3] = 0.0;
+    const JointVector at_zero = calc_gravity_torque(position_rad);
+    for (const double angle : {1.0000001e6, -1.0e9, std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::infinity()}) {
+        position_rad[3] = angle;
+        EXPECT_EQ(calc_gravity_torque(position_rad), at_zero) << angle;
     }
 }
 
