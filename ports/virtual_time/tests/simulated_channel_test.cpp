@@ -64,6 +64,14 @@ TEST_F(SimulatedChannelTest, WhileLosingNothingLeavesAndNothingComesLater) {
     EXPECT_EQ(run_cycles({kNothing, 4}), (Messages{kNothing, 4}));
 }
 
+TEST_F(SimulatedChannelTest, AnInvertedBitIsForBytesOnly) {
+    verifies("SWR-VTM-004", Technique::kEquivalenceClasses);
+    ChannelFault fault{};
+    fault.inverted_bit = 1U;
+    sut_.set_fault(fault);
+    EXPECT_EQ(run_cycle(4), 4);
+}
+
 TEST(SimulatedChannelOfBytesTest, ADamagedMessageHasOneInvertedBit) {
     verifies("SWR-VTM-004", Technique::kFaultInjection);
     using Bytes = BoundedSequence<std::uint8_t, 4U>;
