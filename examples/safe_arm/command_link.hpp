@@ -26,7 +26,7 @@ inline constexpr mamori::safety::SentIdChannel kCommandChannelId{0x41524D01U, kC
 using CommandFrameMessage = mamori::safety::E2eMessage<TorqueCommand, CommandProfile, kCommandChannelId>;
 using CommandFrame = CommandFrameMessage::Frame;
 
-/// HARDENED. The monitor judges the age from the command itself; the channel is not trusted with it. After
+/// HARDENED. The monitor checks the age in the command itself; the channel is not trusted with it. After
 /// more losses than tolerated, the fault CommandStale is latched, so the order may be found again without a
 /// reset.
 inline constexpr mamori::safety::E2eInLimits<mamori::safety::HardenedSequence> kCommandLimits{

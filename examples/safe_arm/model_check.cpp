@@ -32,7 +32,7 @@ std::string check_gravity(const mamori::sim::ArmModel& model) {
                 return "joint " + model.joints[j].name + ": torque against gravity " +
                        std::to_string(torque_nm[j]) + " N m must be " + std::to_string(wanted_nm) +
                        " within " + std::to_string(kGravityDifferenceNm) +
-                       ": change masses and lengths of the model, or those of gravity_model.cpp";
+                       ": change masses and lengths in the model, or in gravity_model.cpp";
             }
         }
     }
