@@ -18,6 +18,7 @@ from mamori_tools.host.project import SANITIZED, Project
 from mamori_trace.base.errors import WorkError
 
 LAYERS = ("kernel", "safety", "ports/conformance", "ports/lcm", "ports/posix_rt", "ports/virtual_time")  # the tests of each layer must cover it
+COMPILER_LABEL = "compiler"  # CTest's label of a test that runs the compiler only: it executes no code of its layer
 TEST_TIMEOUT_S = 600
 BUILD_TIMEOUT_S = 3600
 
@@ -35,7 +36,7 @@ def measure_layer(root: Path, layer: str, build: Path, jobs: int) -> dict[str, A
     newer. @return the coverage of its sources. @raise WorkError."""
     folder, tests = root / layer, build / layer
     listing = json.loads(run(("ctest", "--test-dir", str(tests), "--show-only=json-v1")))
-    programs = {test["name"]: Path(test["command"][0]) for test in listing["tests"]}
+    programs = {test["name"]: Path(test["command"][0]) for test in listing["tests"] if COMPILER_LABEL not in list_labels(test)}
     if not programs:
         raise WorkError(f"{tests} has no test program; nothing was measured")
     profiles = build / "evidence" / "profiles" / folder.name
@@ -44,6 +45,11 @@ def measure_layer(root: Path, layer: str, build: Path, jobs: int) -> dict[str, A
     if missing:
         run(("ctest", "--test-dir", str(tests), "--output-on-failure", "--parallel", str(jobs), "--tests-regex", f"^({'|'.join(missing)})$"))
     return export(list(programs.values()), profiles, (folder / "include", folder / "src"))
+
+
+def list_labels(test: dict[str, Any]) -> list[str]:
+    """@return the labels of `test`, one of ctest's list."""
+    return [label for each in test["properties"] if each["name"] == "LABELS" for label in each["value"]]
 
 
 def has_counters(profiles: Path, test: str, program: Path) -> bool:

@@ -12,6 +12,8 @@ from mamori_tools.host.plans import BUILD, COMMAND, PYTHON, build_step, campaign
 from mamori_tools.host.project import CHECKED_LAYERS, RELEASE, ROOT, SANITIZED, Project
 from mamori_tools.host.steps import Action, Step, Tier
 
+from verification.coverage.measure import COMPILER_LABEL
+
 PYTEST = (*PYTHON, "pytest", "-q", "-p", "no:cacheprovider", "--junitxml={result}")
 PARALLEL = ("-n", "{jobs}", "--dist", "worksteal")
 FUZZ_S, LONG_FUZZ_S = 5, 600  # time for each harness
@@ -221,7 +223,7 @@ def list_verify_steps(campaign: Action) -> tuple[Step, ...]:
 def list_test_steps(project: Project, campaign: Action, tier: Tier, mutation_minutes: int | None = None) -> tuple[Step, ...]:
     """@param mutation_minutes limit of the step that tries all mutants without a stored result; None: no limit."""
     # The compile-must-fail tests take a third of the time of all C++ tests, and depend only on headers.
-    without_compiling = ("--exclude-regex", "compile_fail")
+    without_compiling = ("--label-exclude", COMPILER_LABEL)
     fewer = without_compiling if tier == Tier.QUICK else ()
     limit = () if mutation_minutes is None else ("--minutes", str(mutation_minutes))
     steps = (
@@ -250,7 +252,7 @@ def list_test_steps(project: Project, campaign: Action, tier: Tier, mutation_min
         comparison_step(),
         safe_state_step(),
         build_step(SANITIZED, Tier.GATE),
-        ctest_step(SANITIZED, Tier.GATE, *without_compiling),
+        ctest_step(SANITIZED, Tier.GATE, *(() if tier == Tier.ALL else without_compiling)),
         faults_step(SANITIZED, Tier.GATE),
         *race_steps(),
         proof_step("determinism proof", "determinism", needs=(BUILD, f"build {SANITIZED}")),

@@ -385,34 +385,24 @@ constexpr auto& kRun = g_producer;
 #else
 constexpr auto& kRun = g_function;
 #endif
-constexpr auto kSystem = mamori::system(
+[[maybe_unused]] constexpr auto kSystem = mamori::system(
     mamori::frame(1_ms), mamori::system_window("notice", 0_us, 100_us, mamori::budget(1_us), kRun));
 }  // namespace system_window_of_component
 
-// A system window that waits for events.
-namespace system_window_of_events {
-#ifdef MAMORI_BREAK_SYSTEM_WINDOW_OF_EVENTS
+// A system window that waits for events or for a trigger.
+namespace system_window_that_waits {
+#if defined(MAMORI_BREAK_SYSTEM_WINDOW_OF_EVENTS)
 constexpr auto kOption = mamori::event_driven(1U);
-#else
-constexpr auto kOption = mamori::core(0U);
-#endif
-constexpr auto kSystem =
-    mamori::system(mamori::frame(1_ms),
-                   mamori::system_window("notice", 0_us, 100_us, mamori::budget(1_us), kOption, g_function));
-}  // namespace system_window_of_events
-
-// A system window that waits for a trigger.
-namespace system_window_of_trigger {
-#ifdef MAMORI_BREAK_SYSTEM_WINDOW_OF_TRIGGER
+#elif defined(MAMORI_BREAK_SYSTEM_WINDOW_OF_TRIGGER)
 inline mamori::ExternalTrigger trigger;
 constexpr auto kOption = mamori::triggered_by(trigger);
 #else
 constexpr auto kOption = mamori::core(0U);
 #endif
-constexpr auto kSystem =
+[[maybe_unused]] constexpr auto kSystem =
     mamori::system(mamori::frame(1_ms),
                    mamori::system_window("notice", 0_us, 100_us, mamori::budget(1_us), kOption, g_function));
-}  // namespace system_window_of_trigger
+}  // namespace system_window_that_waits
 
 // A system function that is not one.
 namespace system_function_of_integer {
