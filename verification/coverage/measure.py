@@ -14,11 +14,10 @@ from collections.abc import Container, Sequence
 from pathlib import Path
 from typing import Any
 
-from mamori_tools.host.project import SANITIZED, Project
+from mamori_tools.host.project import COMPILER_LABEL, SANITIZED, Project
 from mamori_trace.base.errors import WorkError
 
 LAYERS = ("kernel", "safety", "ports/conformance", "ports/lcm", "ports/posix_rt", "ports/virtual_time")  # the tests of each layer must cover it
-COMPILER_LABEL = "compiler"  # CTest's label of a test that runs the compiler only: it executes no code of its layer
 TEST_TIMEOUT_S = 600
 BUILD_TIMEOUT_S = 3600
 

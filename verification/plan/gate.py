@@ -9,10 +9,8 @@ from __future__ import annotations
 from mamori_tools.host.environment import renew_environment
 from mamori_tools.host.exit_status import EXIT_UNFINISHED
 from mamori_tools.host.plans import BUILD, COMMAND, PYTHON, build_step, campaign_step, timing_step, trace_steps
-from mamori_tools.host.project import CHECKED_LAYERS, RELEASE, ROOT, SANITIZED, Project
+from mamori_tools.host.project import CHECKED_LAYERS, COMPILER_LABEL, RELEASE, ROOT, SANITIZED, Project
 from mamori_tools.host.steps import Action, Step, Tier
-
-from verification.coverage.measure import COMPILER_LABEL
 
 PYTEST = (*PYTHON, "pytest", "-q", "-p", "no:cacheprovider", "--junitxml={result}")
 PARALLEL = ("-n", "{jobs}", "--dist", "worksteal")
