@@ -38,6 +38,8 @@ enum class ArmFault : std::uint16_t {
     kEnableLost,          ///< the enabling device or the hold-to-run button is released while torque is on
     kEnablingSqueezed,    ///< the enabling device is squeezed
     kModeSelector,        ///< the mode was changed, or the selector shows no mode
+    kClockDeviation,      ///< the clocks of processor and drives run at different rates
+    kPositionDoubtful,    ///< torque or reference switch contradicts both encoder channels
     kCount,               ///< number of faults
 };
 inline constexpr auto kArmFaultCount = static_cast<std::size_t>(ArmFault::kCount);
@@ -59,7 +61,7 @@ inline constexpr std::array<const char*, kArmFaultCount> kArmFaultNames{
     "PositionLimit",      "TorqueDeviation",    "ControllerSilent",  "CommandStale",   "PowerLost",
     "BrakeFault",         "SelfTestFailed",     "MeasurementStale",  "ReactionLate",   "BrakeTestOld",
     "StopNotFollowed",    "EmergencyStop",      "SwitchDiscrepancy", "ProtectiveStop", "MovementAtRest",
-    "EnableLost",         "EnablingSqueezed",   "ModeSelector"};
+    "EnableLost",         "EnablingSqueezed",   "ModeSelector",      "ClockDeviation", "PositionDoubtful"};
 
 }  // namespace safe_arm
 

@@ -17,6 +17,7 @@
 #include "mamori/safety/arm/guards.hpp"
 #include "mamori/safety/reaction/brake_sequence.hpp"
 #include "mamori/safety/reaction/safe_state_machine.hpp"
+#include "mamori/safety/redundancy/clock_ratio.hpp"
 #include "mamori/safety/supervision/execution_supervisor.hpp"
 #include "mamori/safety/supervision/watchdog_gate.hpp"
 
@@ -146,6 +147,18 @@ inline constexpr double kRestTravelRad = 0.005;
 static_assert(kRestTravelRad > kDiscrepancyRad);
 /// Feedback of a switch-off path may contradict its command for this long.
 inline constexpr mamori::Duration kPathTime = 20_ms;
+/// The clocks of processor and drives may differ by this much: 5 ms of jitter between processes. A safe speed
+/// that is measured with such a clock is still below the mechanical limit. Two windows find any deviation.
+inline constexpr mamori::safety::ClockRatioLimits kClockLimits{100_ms, 50'000U};
+/// The torque of a joint and the torque that its measured motion needs may differ by this much [N m], as mean
+/// values over this time [s]. The maximum inertia of a joint [kg m^2] and its friction [N m s/rad] complete
+/// gravity. Joints that accelerate each other need the rest: 40 % of it in the shipped motion.
+inline constexpr mamori::safety::JointVector kModelDifferenceNm{2.5, 6.0, 1.5, 4.0, 0.3, 0.4, 0.3};
+inline constexpr mamori::safety::JointVector kInertiaMaxKgM2{4.0, 4.0, 1.0, 1.0, 0.1, 0.1, 0.1};
+inline constexpr mamori::safety::JointVector kFrictionNmSRad{5.0, 5.0, 1.0, 1.0, 0.05, 0.05, 0.05};
+inline constexpr double kModelTimeS = 0.5;
+/// The measured position may be this far on the wrong side of the reference switch [rad].
+inline constexpr double kReferenceRad = 0.02;
 /// Brake test: all drives push with their torque limit against the closed brakes, first forwards, then
 /// backwards: ramp, then hold. A brake slips beyond 2 mrad.
 inline constexpr mamori::Duration kBrakeTestRamp = 20_ms;

@@ -36,6 +36,8 @@ Status ArmReader::on_execute(ContextHandle context) noexcept {
     result.torque_enabled = inputs_.torque_enabled;
     result.relay_closed = inputs_.relay_closed;
     result.power_good = inputs_.power_good;
+    result.reference_closed = inputs_.reference_closed;
+    result.drive_clock_ns = inputs_.drive_clock_ns;
     const PanelState panel = panel_.step(inputs_, context.now);
     result.start_button = panel.start;
     result.reset_button = panel.reset;

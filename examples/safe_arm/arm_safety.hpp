@@ -24,7 +24,8 @@ inline constexpr auto kArmReactions = mamori::parts(
                    ArmFault::kMeasurementStale, ArmFault::kReactionLate, ArmFault::kBrakeTestOld,
                    ArmFault::kStopNotFollowed, ArmFault::kEmergencyStop, ArmFault::kSwitchDiscrepancy,
                    ArmFault::kProtectiveStop, ArmFault::kMovementAtRest, ArmFault::kEnableLost,
-                   ArmFault::kEnablingSqueezed, ArmFault::kModeSelector>(),
+                   ArmFault::kEnablingSqueezed, ArmFault::kModeSelector, ArmFault::kClockDeviation,
+                   ArmFault::kPositionDoubtful>(),
     mamori::react(ArmFault::kEncoderImplausible, Reaction::kSs1, mamori::within(2_ms)),
     mamori::react(ArmFault::kEncoderDiscrepancy, Reaction::kSto, mamori::within(2_ms)),
     mamori::react(ArmFault::kEncoderStuck, Reaction::kSto, mamori::within(2_ms)),
@@ -47,7 +48,10 @@ inline constexpr auto kArmReactions = mamori::parts(
     mamori::react(ArmFault::kMovementAtRest, Reaction::kSto, mamori::within(2_ms)),
     mamori::react(ArmFault::kEnableLost, Reaction::kSs2, mamori::within(2_ms)),
     mamori::react(ArmFault::kEnablingSqueezed, Reaction::kSs1, mamori::within(2_ms)),
-    mamori::react(ArmFault::kModeSelector, Reaction::kSs1, mamori::within(2_ms)));
+    mamori::react(ArmFault::kModeSelector, Reaction::kSs1, mamori::within(2_ms)),
+    // The ramp of SS1 takes its time from the clock, and its position from the encoders.
+    mamori::react(ArmFault::kClockDeviation, Reaction::kSto, mamori::within(2_ms)),
+    mamori::react(ArmFault::kPositionDoubtful, Reaction::kSto, mamori::within(2_ms)));
 
 /// @param[in] lateness_max latest window start that is tolerated; it depends on the platform.
 constexpr auto make_arm_safety(mamori::Duration lateness_max) noexcept {

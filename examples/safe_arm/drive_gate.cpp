@@ -47,7 +47,8 @@ Status DriveGate::on_execute(ContextHandle context) noexcept {
         result.torque_enable = decision.torque_enable;
         result.brake_release = decision.torque_enable && decision.brake_release;
         result.source = decision.torque_source;
-        result.torque_nm = calc_torque(decision);
+        result.gravity_nm = calc_gravity_torque(arm_state.read().position_rad);
+        result.torque_nm = calc_torque(decision, result.gravity_nm);
         result.stop_setpoint_rad = stop_loop_.get_setpoint();
     } else {
         stop_loop_.release();
@@ -60,7 +61,7 @@ Status DriveGate::on_execute(ContextHandle context) noexcept {
     return Status::kOk;
 }
 
-JointVector DriveGate::calc_torque(const StopCommand& decision) noexcept {
+JointVector DriveGate::calc_torque(const StopCommand& decision, const JointVector& gravity_nm) noexcept {
     JointVector wanted_nm{};
     const JointState& measured = arm_state.read();
     if (!decision.torque_enable || decision.torque_source != TorqueSource::kStopLoop) {
@@ -71,10 +72,10 @@ JointVector DriveGate::calc_torque(const StopCommand& decision) noexcept {
     }
     switch (decision.torque_source) {
         case TorqueSource::kController:
-            wanted_nm = limit_controller(command.read().torque_nm);
+            wanted_nm = limit_controller(command.read().torque_nm, gravity_nm);
             break;
         case TorqueSource::kStopLoop:
-            wanted_nm = stop_loop_.step(measured);
+            wanted_nm = stop_loop_.step(measured, gravity_nm);
             break;
         case TorqueSource::kBrakeTest:
             wanted_nm = scale(kTorqueLimitNm, decision.brake_test_share, 0.0);
@@ -89,8 +90,9 @@ JointVector DriveGate::calc_torque(const StopCommand& decision) noexcept {
 
 /// First the rate, then the distance from the torque that holds the arm: the last torque is a limited one, so
 /// both are kept.
-JointVector DriveGate::limit_controller(const JointVector& wanted_nm) const noexcept {
-    JointVector result = calc_gravity_torque(arm_state.read().position_rad);
+JointVector DriveGate::limit_controller(const JointVector& wanted_nm,
+                                        const JointVector& gravity_nm) const noexcept {
+    JointVector result = gravity_nm;
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
         const double near_last = hold_near(outputs_.torque_nm[j], wanted_nm[j], kControllerStepNm[j]);
         result[j] = hold_near(result[j], near_last, kControllerShareNm[j]);

@@ -35,8 +35,8 @@ class DriveGate final : public mamori::Component {
     mamori::Status on_aborting(mamori::ContextHandle context) noexcept override;
 
   private:
-    JointVector calc_torque(const StopCommand& decision) noexcept;
-    JointVector limit_controller(const JointVector& wanted_nm) const noexcept;
+    JointVector calc_torque(const StopCommand& decision, const JointVector& gravity_nm) noexcept;
+    JointVector limit_controller(const JointVector& wanted_nm, const JointVector& gravity_nm) const noexcept;
 
     mamori::safety::ArmOutputs& outputs_;
     StopLoop stop_loop_{};

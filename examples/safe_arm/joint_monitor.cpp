@@ -42,11 +42,13 @@ Status JointMonitor::on_execute(ContextHandle context) noexcept {
             (result.position_rad[j] - past_rad_[oldest_][j]) / (static_cast<double>(kSpeedCycles) * kFrameS);
     }
     result.faults |= judge_stuck(now) | judge_motion(result) | judge_torque(now) | judge_brakes(now) |
-                     judge_power(now) | check_rest(result);
+                     judge_power(now) | check_rest(result) | judge_reference(result.position_rad) |
+                     compare_with_model(result) | judge_clock(Instant{now.drive_clock_ns}, context.now);
     const bool is_fresh = is_command_fresh(context.now);
     if (is_controlled() && !is_fresh) {
         result.faults |= to_bit(ArmFault::kCommandStale);
     }
+    result.is_clock_checked = clocks_.get_verdict() == ClockVerdict::kGood;
     result.is_standing = standstill_.step(result.velocity_rad_s, context.now);
     result.is_setpoint_near =
         is_fresh &&
@@ -70,6 +72,7 @@ void JointMonitor::begin_history(const JointReading& now) noexcept {
     last_ = now;
     stuck_since_rad_ = command.read().setpoint_rad;
     resting_for_ = {};
+    clocks_ = ClockRatio{kClockLimits};
     has_history_ = true;
 }
 
@@ -196,6 +199,53 @@ std::uint32_t JointMonitor::check_rest(const JointState& now) noexcept {
     }
     return flag(calc_following_errors(rest_rad_, now.position_rad, make_uniform(kRestTravelRad)),
                 ArmFault::kMovementAtRest);
+}
+
+/// Until the first sample there is nothing to compare, and nothing to start.
+std::uint32_t JointMonitor::judge_clock(Instant drives, Instant own) noexcept {
+    if (drives == Instant{}) {
+        return 0U;
+    }
+    return clocks_.step(drives, own) == ClockVerdict::kViolated ? to_bit(ArmFault::kClockDeviation) : 0U;
+}
+
+/// A third opinion about the position of each joint, where both channels may have one cause of failure.
+std::uint32_t JointMonitor::judge_reference(const JointVector& position_rad) noexcept {
+    std::uint32_t faults = 0U;
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        const double inside_rad = reading.read().reference_closed[j] ? position_rad[j] : -position_rad[j];
+        faults |= inside_rad < -kReferenceRad ? to_bit(ArmFault::kPositionDoubtful) : 0U;
+    }
+    return faults;
+}
+
+/// An arm that moves where the encoders do not show it needs another torque against gravity. What a joint
+/// accelerates by is the difference of its speed from its mean.
+std::uint32_t JointMonitor::compare_with_model(const JointState& now) noexcept {
+    const JointReading& measured = reading.read();
+    if (!is_torque_on() || !measured.torque_enabled || !measured.brakes_open) {
+        mean_difference_nm_ = {};
+        mean_rad_s_ = now.velocity_rad_s;
+        return 0U;
+    }
+    constexpr double kShare = kFrameS / kModelTimeS;
+    std::uint32_t faults = 0U;
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        const double needed_nm = drive.read().gravity_nm[j] + kFrictionNmSRad[j] * now.velocity_rad_s[j];
+        const double difference_nm = measured.measured_torque_nm[j] - needed_nm;
+        // A torque that no drive has is a deviation; it must not stay in the mean.
+        if (is_within(difference_nm, 2.0 * kTorqueLimitNm[j])) {
+            mean_difference_nm_[j] += kShare * (difference_nm - mean_difference_nm_[j]);
+        }
+        mean_rad_s_[j] += kShare * (now.velocity_rad_s[j] - mean_rad_s_[j]);
+        const double acceleration_rad_s2 = (now.velocity_rad_s[j] - mean_rad_s_[j]) / kModelTimeS;
+        const double distance_nm =
+            kInertiaMaxKgM2[j] * (acceleration_rad_s2 < 0.0 ? -acceleration_rad_s2 : acceleration_rad_s2);
+        faults |= is_within(mean_difference_nm_[j], kModelDifferenceNm[j] + distance_nm)
+                      ? 0U
+                      : to_bit(ArmFault::kPositionDoubtful);
+    }
+    return faults;
 }
 
 bool JointMonitor::is_command_fresh(Instant now) const noexcept {

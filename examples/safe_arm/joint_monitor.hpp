@@ -5,7 +5,7 @@
 /// latching are the fault register's work.
 ///
 /// @satisfies SWR-SAF-005, SWR-SAF-006, SWR-SAF-007, SWR-SAF-008, SWR-SAF-029, SWR-SAF-034, SWR-SAF-037
-/// @satisfies SWR-SAF-043
+/// @satisfies SWR-SAF-043, SWR-SAF-046, SWR-SAF-048, SWR-SAF-049
 /// Design: docs/design/safe_arm.md#monitor
 #ifndef EXAMPLES_SAFE_ARM_JOINT_MONITOR_HPP
 #define EXAMPLES_SAFE_ARM_JOINT_MONITOR_HPP
@@ -17,6 +17,7 @@
 #include "arm_limits.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/safety/base/rising_edge.hpp"
+#include "mamori/safety/redundancy/clock_ratio.hpp"
 #include "messages.hpp"
 
 namespace safe_arm {
@@ -50,6 +51,9 @@ class JointMonitor final : public mamori::Component {
     std::uint32_t judge_power(const JointReading& now) noexcept;
     std::uint32_t judge_brakes(const JointReading& now) noexcept;
     std::uint32_t check_rest(const JointState& now) noexcept;
+    std::uint32_t judge_clock(mamori::Instant drives, mamori::Instant own) noexcept;
+    std::uint32_t judge_reference(const JointVector& position_rad) noexcept;
+    std::uint32_t compare_with_model(const JointState& now) noexcept;
     bool is_command_fresh(mamori::Instant now) const noexcept;
     bool is_controlled() const noexcept {
         return is_torque_on() && drive.read().source == TorqueSource::kController;
@@ -71,6 +75,9 @@ class JointMonitor final : public mamori::Component {
     mamori::Duration relay_open_for_{};
     mamori::Duration resting_for_{};
     JointVector rest_rad_{};  ///< where the brakes engaged
+    mamori::safety::ClockRatio clocks_{kClockLimits};
+    JointVector mean_difference_nm_{};  ///< of the torque from gravity and friction
+    JointVector mean_rad_s_{};          ///< over the same time
     bool has_history_{false};
 };
 

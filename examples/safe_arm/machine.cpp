@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "machine.hpp"
 
+#include <cmath>
+
 #include "safe_arm_system.hpp"
 
 namespace safe_arm {
@@ -94,6 +96,8 @@ void Machine::apply_software_faults(Instant now) noexcept {
         case FaultKind::kHoldToRun:
         case FaultKind::kStartStuck:
         case FaultKind::kResetStuck:
+        case FaultKind::kEncoderDrift:
+        case FaultKind::kClockWrong:
             break;  // faults of the plant
     }
     channel.set_fault(channel_fault);
@@ -102,12 +106,25 @@ void Machine::apply_software_faults(Instant now) noexcept {
     static_cast<void>(host_.set_duration(supervisor, supervisor_time));
 }
 
+/// A frame of a fast clock is shorter. The timeout of the watchdog counts frames, so the watchdog is not what
+/// finds the fault.
+Duration Machine::calc_true_time(Instant now, Duration length) noexcept {
+    if (fault_.kind != FaultKind::kClockWrong || !mamori::sim::is_active(fault_, now)) {
+        return length;
+    }
+    owed_ = owed_ + Duration{std::llround(static_cast<double>(length.ns) / fault_.magnitude)};
+    const Duration time{owed_.ns - owed_.ns % mamori::sim::kPlantSubstep.ns};
+    owed_ = owed_ - time;
+    return time;
+}
+
 void Machine::apply(std::uint64_t, Instant now, Duration length) noexcept {
     watchdog.check(now + length);
     plant_.set_watchdog_expired(watchdog.has_expired());
     const bool has_stopped = fault_.kind == FaultKind::kProcessorStops && mamori::sim::is_active(fault_, now);
     applied_ = has_stopped ? applied_ : outputs;
-    if (plant_.step(applied_, length) != mamori::Status::kOk) {
+    const Duration true_time = calc_true_time(now, length);
+    if (true_time > Duration{} && plant_.step(applied_, true_time) != mamori::Status::kOk) {
         is_plant_sound_ = false;
         simulation.request_stop();
     }

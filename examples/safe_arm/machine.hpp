@@ -2,6 +2,8 @@
 /// @file
 /// Environment of the safety software in a simulated run: the plant with its process image, the start button
 /// of the operator, the hardware watchdog, and the injected faults of the plan.
+///
+/// @satisfies SWR-SAF-050      Design: docs/design/simulation.md#fault-plan
 #ifndef EXAMPLES_SAFE_ARM_MACHINE_HPP
 #define EXAMPLES_SAFE_ARM_MACHINE_HPP
 
@@ -44,6 +46,7 @@ class Machine final : public mamori::Devices {
 
   private:
     void apply_software_faults(mamori::Instant now) noexcept;
+    mamori::Duration calc_true_time(mamori::Instant now, mamori::Duration length) noexcept;
 
     mamori::sim::ArmPlant& plant_;
     mamori::ports::virtual_time::VirtualHost& host_;
@@ -51,6 +54,7 @@ class Machine final : public mamori::Devices {
     WrongController wrong_;  ///< of the fault plan
     RunRecord& record_;
     mamori::safety::ArmOutputs applied_{};  ///< those of the frame before once the processor has stopped
+    mamori::Duration owed_{};               ///< time of the plant that is shorter than one of its steps
     bool is_plant_sound_{true};
 };
 

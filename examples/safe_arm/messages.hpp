@@ -36,8 +36,10 @@ struct JointReading {
     bool torque_enabled{false};  ///< feedback
     bool relay_closed{false};    ///< feedback
     bool power_good{false};
-    bool start_button{false};  ///< a deliberate push ends in this frame
-    bool reset_button{false};  ///< likewise
+    bool start_button{false};                             ///< a deliberate push ends in this frame
+    bool reset_button{false};                             ///< likewise
+    std::array<bool, kArmJointCount> reference_closed{};  ///< the joint angle is positive
+    std::int64_t drive_clock_ns{0};                       ///< 0: no sample yet
     OperatingMode mode{OperatingMode::kAutomatic};
     std::uint32_t panel_faults{0U};  ///< of the operator panel; bit n = ArmFault n
 };
@@ -48,6 +50,7 @@ struct JointState {
     JointVector velocity_rad_s{};  ///< mean over the last 4 cycles
     std::uint32_t faults{0U};
     bool is_standing{false};       ///< below the standstill speed for the confirmation time
+    bool is_clock_checked{false};  ///< compared with the clock of the drives
     bool is_setpoint_near{false};  ///< setpoint within the bumpless tolerance of the measured position
 };
 
@@ -86,18 +89,20 @@ struct DriveCommand {
     bool relay_close{false};
     TorqueSource source{TorqueSource::kController};
     JointVector stop_setpoint_rad{};  ///< of the stop loop
+    JointVector gravity_nm{};         ///< torque that holds the arm at its measured position
 };
 
 }  // namespace safe_arm
 
 MAMORI_FIELDS(safe_arm::JointReading, position_a_rad, position_b_rad, measured_torque_nm, brakes_closed,
-              brakes_open, torque_enabled, relay_closed, power_good, start_button, reset_button, mode,
-              panel_faults)
-MAMORI_FIELDS(safe_arm::JointState, position_rad, velocity_rad_s, faults, is_standing, is_setpoint_near)
+              brakes_open, torque_enabled, relay_closed, power_good, start_button, reset_button,
+              reference_closed, drive_clock_ns, mode, panel_faults)
+MAMORI_FIELDS(safe_arm::JointState, position_rad, velocity_rad_s, faults, is_standing, is_clock_checked,
+              is_setpoint_near)
 MAMORI_FIELDS(safe_arm::TorqueCommand, sequence, sent_at_ns, setpoint_rad, torque_nm)
 MAMORI_FIELDS(safe_arm::StopCommand, state, torque_enable, brake_release, stop_requested, relay_close,
               torque_source, brake_test_share, mode)
 MAMORI_FIELDS(safe_arm::DriveCommand, torque_nm, torque_enable, brake_release, relay_close, source,
-              stop_setpoint_rad)
+              stop_setpoint_rad, gravity_nm)
 
 #endif  // EXAMPLES_SAFE_ARM_MESSAGES_HPP

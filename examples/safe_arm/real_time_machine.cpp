@@ -4,6 +4,7 @@
 #include "machine.hpp"
 #include "mamori/kernel/base/assert.hpp"
 #include "mamori/ports/posix_rt/real_time_rights.hpp"
+#include "mamori/ports/posix_rt/time_source.hpp"
 #include "safe_arm_system.hpp"
 
 namespace safe_arm {
@@ -61,6 +62,8 @@ void RealTimeMachine::before_opening(const mamori::FrameSchedule::Opening& openi
     } else {
         inputs = sample_;
     }
+    // The time of the simulated drives stops when a step of them is late.
+    inputs.drive_clock_ns = mamori::ports::posix_rt::get_raw_clock().read_ns();
 }
 
 void RealTimeMachine::after_opening(const mamori::FrameSchedule::Opening& opening,

@@ -23,7 +23,8 @@ CycleInputs SafetySupervisor::read_inputs(Instant at) noexcept {
     inputs.start_button = (now.start_button && !ends_hold) || has_ended_hold_;
     inputs.reset_button = now.reset_button || ends_hold;
     has_ended_hold_ = ends_hold;
-    inputs.may_start = arm_state.read().is_setpoint_near && now.panel_faults == 0U;
+    inputs.may_start =
+        arm_state.read().is_setpoint_near && arm_state.read().is_clock_checked && now.panel_faults == 0U;
     // By the gate. One valid encoder channel suffices; an unknown position demands STO.
     inputs.can_hold = true;
     inputs.applied = {drive.read().torque_enable, drive.read().brake_release,

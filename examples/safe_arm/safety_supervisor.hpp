@@ -4,7 +4,7 @@
 /// machine.
 ///
 /// @satisfies SWR-SAF-013, SWR-SAF-014, SWR-SAF-015, SWR-SAF-018, SWR-SAF-019, SWR-SAF-021, SWR-SAF-022
-/// @satisfies SWR-SAF-023, SWR-SAF-025, SWR-SAF-028, SWR-SAF-033      Design:
+/// @satisfies SWR-SAF-023, SWR-SAF-025, SWR-SAF-028, SWR-SAF-033, SWR-SAF-047      Design:
 /// docs/design/safe_arm.md#reactions
 #ifndef EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
 #define EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP

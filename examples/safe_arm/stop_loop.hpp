@@ -8,7 +8,6 @@
 #define EXAMPLES_SAFE_ARM_STOP_LOOP_HPP
 
 #include "arm_limits.hpp"
-#include "gravity_model.hpp"
 #include "messages.hpp"
 
 namespace safe_arm {
@@ -18,15 +17,16 @@ class StopLoop final {
   public:
     /// One frame. The first one begins the ramp at the measured position and speed.
     /// @param[in] measured position [rad] and speed [rad/s] of this frame.
+    /// @param[in] gravity_nm torque of each joint that holds the arm there [N m].
     /// @return torque of each joint [N m], not limited.
-    JointVector step(const JointState& measured) noexcept {
+    JointVector step(const JointState& measured, const JointVector& gravity_nm) noexcept {
         if (!is_running_) {
             is_running_ = true;
             rate_ = 1.0;
             setpoint_rad_ = measured.position_rad;
             speed_rad_s_ = measured.velocity_rad_s;
         }
-        JointVector torque_nm = calc_gravity_torque(measured.position_rad);
+        JointVector torque_nm = gravity_nm;
         for (std::size_t j = 0U; j < kArmJointCount; ++j) {
             const double speed_rad_s = speed_rad_s_[j] * rate_ * rate_;
             torque_nm[j] += kStopStiffness[j] * (setpoint_rad_[j] - measured.position_rad[j]) +

@@ -24,7 +24,8 @@ TEST(ArmDeviceTest, EveryFieldOfTheImageTravels) {
 
     visit_scalars(ArmInputs{}, inputs);
     visit_scalars(ArmOutputs{}, outputs);
-    EXPECT_EQ(inputs.scalars, 4U * kArmJointCount + 16U) << "two encoders, torque, brake; 16 contacts";
+    EXPECT_EQ(inputs.scalars, 5U * kArmJointCount + 17U)
+        << "two encoders, torque, brake, reference; 16 contacts and a clock";
     EXPECT_EQ(outputs.scalars, kArmJointCount + 3U);
 }
 

@@ -215,6 +215,7 @@ const safety::ArmInputs& ArmPlant::sample() {
     plant.inputs.measured_torque_nm = plant.motor_torque;
     for (std::size_t i = 0U; i < kArmJointCount; ++i) {
         plant.inputs.brake_closed[i] = !plant.brake_open[i].is_on();
+        plant.inputs.reference_closed[i] = plant.q[i] > 0.0;
     }
     plant.inputs.torque_enabled = plant.torque_possible.is_on();
     plant.inputs.relay_closed = plant.relay_closed;
@@ -225,6 +226,7 @@ const safety::ArmInputs& ArmPlant::sample() {
         plant.inputs.enabling_closed[i] = !plant.faults.enabling_open[i] && !plant.faults.enabling_squeezed;
     }
     plant.inputs.enabling_squeezed = plant.faults.enabling_squeezed;
+    plant.inputs.drive_clock_ns = plant.now.ns;
     plant.inputs.run_button = !plant.faults.run_released;
     for (std::size_t i = 0U; i < plant.inputs.mode_selected.size(); ++i) {
         plant.inputs.mode_selected[i] = plant.faults.mode == i;

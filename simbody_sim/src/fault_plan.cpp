@@ -69,6 +69,10 @@ const char* get_name(FaultKind kind) noexcept {
             return "message_damaged";
         case FaultKind::kControllerWrong:
             return "controller_wrong";
+        case FaultKind::kEncoderDrift:
+            return "encoder_drift";
+        case FaultKind::kClockWrong:
+            return "clock_wrong";
     }
     return "invalid";
 }
@@ -89,7 +93,7 @@ namespace {
 
 bool is_of_encoder(FaultKind kind) noexcept {
     return kind == FaultKind::kEncoderFreeze || kind == FaultKind::kEncoderBitFlip ||
-           kind == FaultKind::kEncoderBias;
+           kind == FaultKind::kEncoderBias || kind == FaultKind::kEncoderDrift;
 }
 
 bool is_stop(FaultKind kind) noexcept {
@@ -130,7 +134,8 @@ bool uses_magnitude(FaultKind kind) noexcept {
     return kind == FaultKind::kEncoderBitFlip || kind == FaultKind::kEncoderBias ||
            kind == FaultKind::kTorqueRunaway || kind == FaultKind::kBrakeFade ||
            kind == FaultKind::kBrakeCreep || kind == FaultKind::kMessageLate ||
-           kind == FaultKind::kMessageDamaged || kind == FaultKind::kControllerWrong;
+           kind == FaultKind::kMessageDamaged || kind == FaultKind::kControllerWrong ||
+           kind == FaultKind::kEncoderDrift || kind == FaultKind::kClockWrong;
 }
 
 bool is_active(const FaultPlan& plan, Instant now) noexcept {
@@ -151,11 +156,13 @@ bool is_active(const FaultPlan& plan, Instant now) noexcept {
 
 namespace {
 
-void apply_to_encoder(const FaultPlan& plan, bool active, EncoderFault& encoder) noexcept {
+void apply_to_encoder(const FaultPlan& plan, Instant now, bool active, EncoderFault& encoder) noexcept {
     if (plan.kind == FaultKind::kEncoderFreeze) {
         encoder.frozen = active;
     } else if (plan.kind == FaultKind::kEncoderBias) {
         encoder.bias_rad = active ? plan.magnitude : 0.0;
+    } else if (plan.kind == FaultKind::kEncoderDrift) {
+        encoder.bias_rad = active ? plan.magnitude * to_seconds(now - (Instant{} + plan.at)) : 0.0;
     } else if (active) {
         encoder.flipped_bit = static_cast<unsigned>(plan.magnitude);
     } else {
@@ -192,10 +199,10 @@ void apply_plant_faults(const FaultPlan& plan, Instant now, PlantFaults& faults)
     const bool active = is_active(plan, now);
     if (is_of_encoder(plan.kind)) {
         if (plan.channel != FaultChannel::kB) {
-            apply_to_encoder(plan, active, faults.encoder_a[plan.joint]);
+            apply_to_encoder(plan, now, active, faults.encoder_a[plan.joint]);
         }
         if (plan.channel != FaultChannel::kA) {
-            apply_to_encoder(plan, active, faults.encoder_b[plan.joint]);
+            apply_to_encoder(plan, now, active, faults.encoder_b[plan.joint]);
         }
     } else if (is_stop(plan.kind)) {
         auto& open = plan.kind == FaultKind::kEmergencyStop

@@ -23,7 +23,7 @@ class PlanError final : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-constexpr std::array<FaultKind, 28U> kKinds{FaultKind::kNone,
+constexpr std::array<FaultKind, 30U> kKinds{FaultKind::kNone,
                                             FaultKind::kEncoderFreeze,
                                             FaultKind::kEncoderBitFlip,
                                             FaultKind::kEncoderBias,
@@ -50,7 +50,9 @@ constexpr std::array<FaultKind, 28U> kKinds{FaultKind::kNone,
                                             FaultKind::kStartStuck,
                                             FaultKind::kResetStuck,
                                             FaultKind::kMessageDamaged,
-                                            FaultKind::kControllerWrong};
+                                            FaultKind::kControllerWrong,
+                                            FaultKind::kEncoderDrift,
+                                            FaultKind::kClockWrong};
 constexpr std::array<FaultChannel, 3U> kChannels{FaultChannel::kA, FaultChannel::kB, FaultChannel::kBoth};
 
 /// Times in a plan end here, so that they stay far from the range of Instant.
@@ -166,6 +168,12 @@ double to_magnitude(FaultKind kind, const std::string& text) {
             break;
         case FaultKind::kEncoderBias:
             demand(value != 0.0 && std::abs(value) <= 10.0, "an angle from -10 to 10 rad, not 0");
+            break;
+        case FaultKind::kEncoderDrift:
+            demand(value != 0.0 && std::abs(value) <= 10.0, "a speed from -10 to 10 rad/s, not 0");
+            break;
+        case FaultKind::kClockWrong:
+            demand(value != 1.0 && value >= 0.1 && value <= 10.0, "a rate from 0.1 to 10, not 1");
             break;
         case FaultKind::kTorqueRunaway:
             demand(value != 0.0 && std::abs(value) <= 1.0,

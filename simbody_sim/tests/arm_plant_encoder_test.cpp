@@ -103,5 +103,25 @@ TEST_F(ArmPlantEncoderTest, AFlippedBitAndABiasChangeTheCountOfTheirChannelOnly)
     EXPECT_EQ(sut_.sample().encoder_b_counts, sound.encoder_b_counts);
 }
 
+TEST_F(ArmPlantEncoderTest, AReferenceSwitchShowsTheTrueSideOfZero) {
+    verifies("SWR-ARM-001", Technique::kBoundaryValues);
+    sut_.faults().encoder_a[1].bias_rad = -1.0;
+    sut_.faults().encoder_b[1].bias_rad = -1.0;
+    for (const double position_rad : {-1e-9, 0.0, 1e-9}) {
+        JointVector pose{};
+        pose[1] = position_rad;
+        sut_.reset(pose);
+        EXPECT_EQ(sut_.sample().reference_closed[1], position_rad > 0.0) << position_rad;
+        EXPECT_FALSE(sut_.sample().reference_closed[0]);
+    }
+}
+
+TEST_F(ArmPlantEncoderTest, TheClockOfTheDrivesShowsTheTimeOfThePlant) {
+    verifies("SWR-ARM-001");
+    EXPECT_EQ(sut_.sample().drive_clock_ns, 0);
+    ASSERT_EQ(sut_.step({}, 3_ms), Status::kOk);
+    EXPECT_EQ(sut_.sample().drive_clock_ns, 3000000);
+}
+
 }  // namespace
 }  // namespace mamori::sim

@@ -51,7 +51,7 @@ TEST(FaultPlanTest, AFaultStaysUnlessItIsSaidOtherwise) {
 
 TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
     verifies("SWR-SIM-011", Technique::kEquivalenceClasses);
-    const std::array<std::string, 25U> texts{
+    const std::array<std::string, 27U> texts{
         "kind=none",
         "kind=none,seed=18446744073709551615",
         "kind=encoder_freeze,joint=1,channel=a,at=2",
@@ -76,7 +76,9 @@ TEST(FaultPlanTest, EveryKindSurvivesTheWayThroughText) {
         "kind=run_released,at=1",
         "kind=power_loss,at=1,latent=reset_stuck",
         "kind=message_damaged,at=1,duration=once,magnitude=65535",
-        "kind=controller_wrong,at=1,magnitude=123456789"};
+        "kind=controller_wrong,at=1,magnitude=123456789",
+        "kind=encoder_drift,joint=2,channel=both,at=1,magnitude=-0.3",
+        "kind=clock_wrong,at=1,magnitude=2"};
 
     for (const std::string& text : texts) {
         EXPECT_EQ(to_text(parse(text)), text);
@@ -108,7 +110,7 @@ TEST(FaultPlanTest, EveryKindIsListedOnceAndNoOther) {
               "brakes_stuck_open, sto_ignored, relay_stuck, processor_stops, emergency_stop, "
               "protective_stop, brake_creep, enabling_released, enabling_squeezed, run_released, "
               "reduced_speed, hold_to_run, start_stuck, "
-              "reset_stuck, message_damaged, controller_wrong");
+              "reset_stuck, message_damaged, controller_wrong, encoder_drift, clock_wrong");
 }
 
 TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {
@@ -147,7 +149,7 @@ TEST(FaultPlanTest, BrokenTextIsRefusedWithTheReason) {
 
 TEST(FaultPlanTest, BothSidesOfEveryLimit) {
     verifies("SWR-SIM-011", Technique::kBoundaryValues, Polarity::kViolation);
-    const std::array<std::pair<std::string, std::array<const char*, 2U>>, 19U> cases{{
+    const std::array<std::pair<std::string, std::array<const char*, 2U>>, 25U> cases{{
         // accepted, refused
         {"kind=encoder_freeze,channel=a,at=1,joint=", {"1", "0"}},
         {"kind=encoder_freeze,channel=a,at=1,joint=", {"7", "8"}},
@@ -160,6 +162,12 @@ TEST(FaultPlanTest, BothSidesOfEveryLimit) {
         {"kind=message_damaged,at=1,magnitude=", {"65535", "65536"}},
         {"kind=message_damaged,at=1,magnitude=", {"0", "-1"}},
         {"kind=controller_wrong,at=1,magnitude=", {"1000000000", "1000000001"}},
+        {"kind=encoder_drift,joint=1,channel=b,at=1,magnitude=", {"10", "10.01"}},
+        {"kind=encoder_drift,joint=1,channel=b,at=1,magnitude=", {"-10", "-10.01"}},
+        {"kind=encoder_drift,joint=1,channel=b,at=1,magnitude=", {"0.001", "0"}},
+        {"kind=clock_wrong,at=1,magnitude=", {"10", "10.01"}},
+        {"kind=clock_wrong,at=1,magnitude=", {"0.1", "0.099"}},
+        {"kind=clock_wrong,at=1,magnitude=", {"1.001", "1"}},
         {"kind=encoder_bias,joint=1,channel=a,at=1,magnitude=", {"-10", "-10.1"}},
         {"kind=torque_runaway,joint=1,at=1,magnitude=", {"1", "1.001"}},
         {"kind=torque_runaway,joint=1,at=1,magnitude=", {"-1", "0"}},
@@ -218,6 +226,11 @@ TEST(FaultPlanTest, PlantFaultsComeAndGoWithTheirPlan) {
     EXPECT_FALSE(apply(flip, during).encoder_b[2].flipped_bit);
     EXPECT_EQ(apply(bias, during).encoder_b[3].bias_rad, 0.25);
     EXPECT_EQ(apply(bias, during).encoder_a[3].bias_rad, 0.0);
+    const char* const drift = "kind=encoder_drift,joint=4,channel=both,at=1,duration=0.5,magnitude=0.3";
+    EXPECT_EQ(apply(drift, during).encoder_a[3].bias_rad, 0.0);
+    EXPECT_DOUBLE_EQ(apply(drift, Instant{1200000000}).encoder_a[3].bias_rad, 0.06);
+    EXPECT_DOUBLE_EQ(apply(drift, Instant{1200000000}).encoder_b[3].bias_rad, 0.06);
+    EXPECT_EQ(apply(drift, after, apply(drift, during)).encoder_b[3].bias_rad, 0.0);
     EXPECT_EQ(apply(runaway, during).torque_runaway[4], -0.5);
     EXPECT_EQ(apply(fade, during).brake_fade[5], 0.75);
     EXPECT_EQ(apply(creep, during).brake_creep_rad_s[6], 0.02);
@@ -258,9 +271,10 @@ TEST(FaultPlanTest, PlansOfTheRunnerLeaveThePlantAlone) {
     faults.power_lost = true;
     faults.brake_fade[0] = 0.5;
 
-    for (const char* const text : {"kind=none", "kind=controller_hang,at=0", "kind=message_lost,at=0",
-                                   "kind=message_late,at=0,magnitude=0.1", "kind=supervisor_hang,at=0",
-                                   "kind=torque_runaway,joint=1,at=5,magnitude=1"}) {
+    for (const char* const text :
+         {"kind=none", "kind=controller_hang,at=0", "kind=message_lost,at=0",
+          "kind=message_late,at=0,magnitude=0.1", "kind=clock_wrong,at=0,magnitude=2",
+          "kind=supervisor_hang,at=0", "kind=torque_runaway,joint=1,at=5,magnitude=1"}) {
         apply_plant_faults(parse(text), Instant{1}, faults);
         EXPECT_TRUE(faults.power_lost);
         EXPECT_EQ(faults.brake_fade[0], 0.5);

@@ -263,7 +263,7 @@ def test_the_shipped_plan_injects_every_declared_kind_at_three_instants() -> Non
     assert {case.fault.kind for case in cases if case.fault} >= {
         "encoder_freeze", "encoder_bit_flip", "controller_hang", "torque_runaway", "message_lost", "message_late",
         "power_loss", "supervisor_hang", "processor_stops", "emergency_stop", "protective_stop", "brake_creep",
-        "enabling_released", "enabling_squeezed", "run_released", "reduced_speed"}
+        "enabling_released", "enabling_squeezed", "run_released", "reduced_speed", "encoder_drift", "clock_wrong"}
     assert [case.scenario for case in cases if case.fault is None] == [
         "none", "start_with_weak_brake", "start_with_sto_ignored", "start_with_relay_stuck", "start_with_start_stuck",
         "reduced_speed", "hold_to_run"]

@@ -59,7 +59,7 @@ struct ControllerInput {
 MAMORI_LCM_NAMES(mamori::safety::ArmInputs, encoder_a_counts, encoder_b_counts, measured_torque_nm,
                  brake_closed, torque_enabled, relay_closed, power_good, start_button, reset_button,
                  emergency_stop_closed, protective_stop_closed, enabling_closed, enabling_squeezed,
-                 run_button, mode_selected)
+                 run_button, reference_closed, drive_clock_ns, mode_selected)
 MAMORI_LCM_NAMES(mamori::safety::ArmOutputs, torque_nm, torque_enable, brake_release, relay_close)
 MAMORI_LCM_FIELDS(safe_arm::DeviceFrame, answered_ns, inputs)
 MAMORI_LCM_FIELDS(safe_arm::SupervisorReport, state, reaction, first_fault, is_stopping, late_windows,

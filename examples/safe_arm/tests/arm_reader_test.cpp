@@ -29,6 +29,8 @@ TEST_F(ArmReaderTest, CountsBecomeRadiansAndFeedbackIsPassedOn) {
     ASSERT_EQ(sut_.configure(make_scale()), Status::kOk);
     inputs_.encoder_a_counts[2] = -1500;
     inputs_.encoder_b_counts[6] = 25;
+    inputs_.reference_closed[2] = true;
+    inputs_.drive_clock_ns = 77;
     inputs_.brake_closed.fill(true);
     inputs_.power_good = true;
     inputs_.measured_torque_nm[1] = 4.5;
@@ -41,6 +43,9 @@ TEST_F(ArmReaderTest, CountsBecomeRadiansAndFeedbackIsPassedOn) {
     EXPECT_FALSE(reading.brakes_open);
     EXPECT_TRUE(reading.power_good);
     EXPECT_EQ(reading.measured_torque_nm[1], 4.5);
+    EXPECT_TRUE(reading.reference_closed[2]);
+    EXPECT_FALSE(reading.reference_closed[3]);
+    EXPECT_EQ(reading.drive_clock_ns, 77);
 }
 
 TEST_F(ArmReaderTest, ThePanelIsEvaluatedInEachFrame) {

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: each physical deviation is reported, and nothing is reported of a sound arm. Method: one frame after
 // the other with readings, messages and drive commands made here; both sides of each limit.
-#include "joint_monitor.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <limits>
 
-#include "arm_limits.hpp"
-#include "feed.hpp"
-#include "mamori/trace/verifies.hpp"
+#include "joint_monitor_fixture.hpp"
 
 namespace safe_arm {
 namespace {
@@ -21,56 +17,6 @@ using mamori::Status;
 using namespace mamori::verification;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-/// Just inside and just outside of a limit.
-constexpr double kInside = 0.999;
-constexpr double kOutside = 1.001;
-
-class JointMonitorTest : public ::testing::Test {
-  protected:
-    void SetUp() override {
-        reading_.power_good = true;
-        reading_.brakes_closed = false;
-        reading_.brakes_open = true;
-        reading_.torque_enabled = true;
-        drive_.torque_enable = true;
-        drive_.brake_release = true;
-        ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
-    }
-
-    /// One frame with the fixture's reading, command and drive values.
-    JointState step() {
-        feed(sut_.reading, reading_);
-        if (is_command_sent_) {
-            command_.sent_at_ns = (now_ - Duration{700000}).ns;
-        }
-        feed(sut_.command, command_);
-        feed(sut_.drive, drive_);
-        EXPECT_EQ(sut_.on_execute({0, now_}), Status::kOk);
-        now_ = now_ + kFrame;
-        return take(sut_.state);
-    }
-    void place(std::size_t joint, double position_rad) {
-        reading_.position_a_rad[joint] = position_rad;
-        reading_.position_b_rad[joint] = position_rad;
-        command_.setpoint_rad[joint] = position_rad;
-    }
-    /// Moves a joint at constant speed for `frames` frames; returns the last state.
-    JointState move(std::size_t joint, double speed_rad_s, int frames) {
-        JointState last{};
-        for (int i = 0; i < frames; ++i) {
-            place(joint, reading_.position_a_rad[joint] + speed_rad_s * kFrameS);
-            last = step();
-        }
-        return last;
-    }
-
-    JointMonitor sut_;
-    JointReading reading_{};
-    TorqueCommand command_{};
-    DriveCommand drive_{};
-    Instant now_{1000000000};
-    bool is_command_sent_{true};
-};
 
 TEST_F(JointMonitorTest, SoundArmGivesNoFaultAndItsPosition) {
     verifies("SWR-SAF-007");
@@ -442,67 +388,6 @@ TEST_F(JointMonitorTest, AStopFromAutomaticMayBeginFasterThanTheReducedSpeed) {
         drive_.stop_setpoint_rad[1] = reading_.position_a_rad[1];
         ASSERT_EQ(move(1U, std::min(0.5, 0.005 * i), 1).faults, 0U) << i;
     }
-}
-
-TEST_F(JointMonitorTest, AnArmThatMovesWithoutTorqueIsReported) {
-    verifies("SWR-SAF-034", Technique::kBoundaryValues, Polarity::kViolation);
-    drive_ = {};
-    reading_.torque_enabled = false;
-    reading_.brakes_closed = true;
-    reading_.brakes_open = false;
-    for (const double direction : {1.0, -1.0}) {
-        place(1U, 0.5);
-        ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
-        EXPECT_EQ(move(1U, 0.0, 200).faults, 0U);
-        place(1U, 0.5 + direction * kRestTravelRad * kInside);
-        move(1U, 0.0, 5);
-        EXPECT_EQ(step().faults & to_bit(ArmFault::kMovementAtRest), 0U);
-        place(1U, 0.5 + direction * kRestTravelRad * kOutside);
-        EXPECT_EQ(step().faults & to_bit(ArmFault::kMovementAtRest), to_bit(ArmFault::kMovementAtRest));
-    }
-}
-
-TEST_F(JointMonitorTest, ACreepThatIsSlowerThanStandstillIsReportedAtItsTravel) {
-    verifies("SWR-SAF-034", Technique::kFaultInjection, Polarity::kViolation);
-    step();
-    drive_ = {};
-    reading_.torque_enabled = false;
-    reading_.brakes_closed = true;
-    reading_.brakes_open = false;
-    move(3U, 0.0, 150);
-    const double begin_rad = reading_.position_a_rad[3];
-    int frames = 0;
-    while (move(3U, 0.9 * kStandstillRadS, 1).faults == 0U && frames < 1000) {
-        ++frames;
-    }
-    EXPECT_NEAR(reading_.position_a_rad[3] - begin_rad, kRestTravelRad, 2.0 * kStandstillRadS * kFrameS);
-}
-
-TEST_F(JointMonitorTest, TheSagWhileTheBrakesEngageAndAMovementUnderTorqueAreNoMovementAtRest) {
-    verifies("SWR-SAF-034");
-    move(1U, 0.5, 100);
-    drive_ = {};
-    reading_.torque_enabled = false;
-    reading_.brakes_closed = true;
-    reading_.brakes_open = false;
-    EXPECT_EQ(move(1U, 0.2, static_cast<int>(kBrakeFeedbackTime.ns / kFrame.ns)).faults, 0U);
-    EXPECT_EQ(move(1U, 0.0, 1000).faults, 0U);
-}
-
-TEST_F(JointMonitorTest, AResetBeginsTheRestAgain) {
-    verifies("SWR-SAF-034", Technique::kStateTransition);
-    drive_ = {};
-    reading_.torque_enabled = false;
-    reading_.brakes_closed = true;
-    reading_.brakes_open = false;
-    move(1U, 0.0, 150);
-    EXPECT_EQ(move(1U, 0.2, 50).faults, to_bit(ArmFault::kMovementAtRest));
-    EXPECT_EQ(move(1U, 0.0, 50).faults, to_bit(ArmFault::kMovementAtRest)) << "it does not go by itself";
-
-    reading_.reset_button = true;
-    EXPECT_EQ(step().faults, 0U);
-    reading_.reset_button = false;
-    EXPECT_EQ(move(1U, 0.0, 200).faults, 0U);
 }
 
 TEST_F(JointMonitorTest, ABrakeTestIsJudgedByNoSetpoint) {

@@ -183,6 +183,27 @@ TEST_F(RunTest, BrakeThatCreepsInStandbyIsFoundWithinFiveMilliradiansAndTheStart
     EXPECT_LT(0.02 * time_s, kRestTravelRad * 1.1);
 }
 
+TEST_F(RunTest, AWrongClockIsFoundBelowTheMechanicalSpeedAndASmallDeviationIsTolerated) {
+    verifies("SWR-SAF-050", Technique::kFaultInjection);
+    for (const auto& [rate, state] :
+         {std::pair{"0.5", "Safe"}, std::pair{"0.94", "Safe"}, std::pair{"0.96", "Operational"},
+          std::pair{"1.04", "Operational"}, std::pair{"1.06", "Safe"}, std::pair{"2", "Safe"}}) {
+        ASSERT_EQ(
+            run(arguments(std::string{"--frames 2000 --fault kind=clock_wrong,at=0.25,magnitude="} + rate)),
+            0)
+            << messages_;
+        const nlohmann::json summary = read_summary();
+        EXPECT_EQ(summary["final_state"], state) << rate;
+        for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+            EXPECT_LT(summary["physics"]["max_speed_rad_s"][j].get<double>(), kNoLoadSpeedRadS[j]) << rate;
+        }
+        if (summary["final_state"] == "Safe") {
+            EXPECT_LT(summary["detected_at_s"].get<double>(), 0.5 + 0.25 + 0.2) << rate;
+            EXPECT_LT(summary["physics"]["hold_drift_rad"], 0.002);
+        }
+    }
+}
+
 TEST_F(RunTest, SlowModesKeepTheFlangeBelow250MillimetresPerSecond) {
     verifies("SWR-SAF-037");
     for (const char* const mode : {"reduced_speed", "hold_to_run"}) {

@@ -73,6 +73,7 @@ class SafetySupervisorFixture : public ::testing::Test {
         reading_.brakes_closed = true;
         state_.is_standing = true;
         state_.is_setpoint_near = true;
+        state_.is_clock_checked = true;
     }
 
     /// One frame: the components run as `is_other_running_` and `is_controller_running_` say, then the

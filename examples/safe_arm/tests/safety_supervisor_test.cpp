@@ -86,6 +86,19 @@ TEST_F(SafetySupervisorTest, StartIsRefusedWithoutItsPreconditions) {
     EXPECT_EQ(step().state, SafeState::kStandby) << "the push of the frame before counts for nothing";
 }
 
+TEST_F(SafetySupervisorTest, StartWaitsForTheComparisonOfBothClocks) {
+    verifies("SWR-SAF-047", Technique::kStateTransition);
+    state_.is_clock_checked = false;
+    step_until(SafeState::kStandby, 400);
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kStandby);
+    reading_.start_button = false;
+    state_.is_clock_checked = true;
+    step();
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kOperational);
+}
+
 TEST_F(SafetySupervisorTest, FaultStopsTorqueInTheSameFrameAndStaysLatched) {
     verifies("SWR-SAF-013", Technique::kFaultInjection, Polarity::kViolation);
     operate();

@@ -51,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="BodyMotion YAML file or table (time and joints) to follow; default: the shipped motion")  # fmt: skip
     parser.add_argument("--scenario", nargs="+", default=[], metavar="NAME", action="extend",
                         help="only these fault scenarios; default: all of none, encoder_freeze, encoder_freeze_shoulder, encoder_freeze_both, "
-                             "encoder_bit_flip, encoder_bias, controller_hang, torque_runaway_shoulder, torque_runaway_elbow, "
+                             "encoder_bit_flip, encoder_bias, encoder_drift_shoulder, encoder_drift_wrist, clock_fast, clock_slow, controller_hang, torque_runaway_shoulder, torque_runaway_elbow, "
                              "torque_runaway_wrist, message_lost, message_late, message_lost_once, message_damaged, message_damaged_once, "
                              "controller_drops_arm, controller_swings_arm, power_loss, supervisor_hang, "
                              "brake_stuck_open, brakes_stuck_open, sto_ignored, relay_stuck, start_with_weak_brake, start_with_sto_ignored, "

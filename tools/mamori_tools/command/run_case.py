@@ -33,10 +33,12 @@ FAULT_HELP = """KIND[,key=value...]; default: none
   encoder_freeze    joint=1..7|fastest channel=a|b|both
   encoder_bit_flip  joint channel magnitude=BIT, 0 to 31
   encoder_bias      joint channel magnitude=RAD, -10 to 10, not 0
+  encoder_drift     joint channel magnitude=RAD/S, -10 to 10, not 0
   torque_runaway    joint magnitude=FRACTION of the torque limit, -1 to 1, not 0
   message_late      magnitude=SECONDS, above 0 to 10
   message_damaged   magnitude=BIT of each message, 0 to 65535
   controller_wrong  magnitude=NUMBER of a wrong controller, 0 to 1e9
+  clock_wrong       magnitude=RATE of the processor clock, 0.1 to 10, not 1
   brake_creep       joint magnitude=RAD/S, above 0 to 1
   emergency_stop, protective_stop, enabling_released: channel
   message_lost, power_loss, controller_hang, supervisor_hang, processor_stops,

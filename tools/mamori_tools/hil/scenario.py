@@ -26,8 +26,8 @@ PROCESSES = ("kernel", "controller", "plant")
 MESSAGE_FAULT = "message_lost"
 """The fault of the program that an error on a link replaces."""
 
-REPLACED_FAULTS = ("processor_stops", "message_damaged")
-"""Faults of the program that the kill of a process and an error on a link replace."""
+REPLACED_FAULTS = ("processor_stops", "message_damaged", "clock_wrong")
+"""Faults of the program that the kill of a process and an error on a link replace, or that processes on one clock cannot have."""
 
 AFTER_S = 1.2
 """Observation time after an error on a link or a killed process [s]: standstill is observed for at least 0.5 s."""

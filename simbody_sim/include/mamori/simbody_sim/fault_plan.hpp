@@ -49,6 +49,8 @@ enum class FaultKind : std::uint8_t {
     kResetStuck,        ///< the reset button stays pushed once it is pushed
     kMessageDamaged,    ///< magnitude: bit of each message that is inverted, 0 .. 65535
     kControllerWrong,   ///< magnitude: number of a wrong controller, an integer, 0 .. kWrongControllerMax
+    kEncoderDrift,      ///< magnitude: rad/s, -10 .. 10, not 0
+    kClockWrong,        ///< the clock of the processor; magnitude: its rate, 0.1 .. 10, not 1
 };
 
 enum class FaultChannel : std::uint8_t { kA, kB, kBoth };

@@ -55,6 +55,8 @@ KINDS: Mapping[str, Uses] = {
     "reset_stuck": Uses(),
     "message_damaged": Uses(magnitude=True),
     "controller_wrong": Uses(magnitude=True),
+    "encoder_drift": Uses(joint=True, channel=True, magnitude=True),
+    "clock_wrong": Uses(magnitude=True),
 }
 LATENT_KINDS = ("brake_stuck_open", "brakes_stuck_open", "brake_fade", "sto_ignored", "relay_stuck", "start_stuck", "reset_stuck",
                 "reduced_speed", "hold_to_run")  # fmt: skip

@@ -52,6 +52,10 @@ struct ArmInputs {
     bool enabling_squeezed{false};
     /// Hold-to-run button: true while it is held.
     bool run_button{false};
+    /// Reference switch of each joint, a cam at the link: true = the joint angle is positive.
+    std::array<bool, kArmJointCount> reference_closed{};
+    /// Clock of the drives when they took this sample [ns], from a quartz of its own; 0: no sample yet.
+    std::int64_t drive_clock_ns{0};
     /// Contacts of the mode selector, exactly one of which is closed: automatic, reduced speed, hold-to-run.
     std::array<bool, 3U> mode_selected{};
 };
@@ -73,7 +77,8 @@ struct ArmOutputs {
 
 MAMORI_FIELDS(mamori::safety::ArmInputs, encoder_a_counts, encoder_b_counts, measured_torque_nm, brake_closed,
               torque_enabled, relay_closed, power_good, start_button, reset_button, emergency_stop_closed,
-              protective_stop_closed, enabling_closed, enabling_squeezed, run_button, mode_selected)
+              protective_stop_closed, enabling_closed, enabling_squeezed, run_button, reference_closed,
+              drive_clock_ns, mode_selected)
 MAMORI_FIELDS(mamori::safety::ArmOutputs, torque_nm, torque_enable, brake_release, relay_close)
 
 #endif  // MAMORI_SAFETY_ARM_ARM_DEVICE_HPP
