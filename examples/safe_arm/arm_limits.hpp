@@ -151,10 +151,10 @@ inline constexpr mamori::Duration kPathTime = 20_ms;
 /// that is measured with such a clock is still below the mechanical limit. Two windows find any deviation.
 inline constexpr mamori::safety::ClockRatioLimits kClockLimits{100_ms, 50'000U};
 /// The torque of a joint and the torque that its measured motion needs may differ by this much [N m], as mean
-/// values over this time [s]. The maximum inertia of a joint [kg m^2] and its friction [N m s/rad] complete
-/// gravity. Joints that accelerate each other need the rest: 40 % of it in the shipped motion.
-inline constexpr mamori::safety::JointVector kModelDifferenceNm{2.5, 6.0, 1.5, 4.0, 0.3, 0.4, 0.3};
-inline constexpr mamori::safety::JointVector kInertiaMaxKgM2{4.0, 4.0, 1.0, 1.0, 0.1, 0.1, 0.1};
+/// values over kModelTimeS. Accelerations complete gravity and friction [N m s/rad]: an entry of the mass
+/// matrix is at most the product of the roots of its two diagonal entries, the maximum inertias [kg^0.5 m].
+inline constexpr mamori::safety::JointVector kModelDifferenceNm{2.0, 4.0, 1.2, 2.5, 0.25, 0.3, 0.25};
+inline constexpr mamori::safety::JointVector kInertiaRoot{2.0, 2.0, 1.0, 1.0, 0.32, 0.32, 0.32};
 inline constexpr mamori::safety::JointVector kFrictionNmSRad{5.0, 5.0, 1.0, 1.0, 0.05, 0.05, 0.05};
 inline constexpr double kModelTimeS = 0.5;
 /// The measured position may be this far on the wrong side of the reference switch [rad].

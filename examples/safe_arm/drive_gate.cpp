@@ -77,6 +77,9 @@ JointVector DriveGate::calc_torque(const StopCommand& decision, const JointVecto
         case TorqueSource::kStopLoop:
             wanted_nm = stop_loop_.step(measured, gravity_nm);
             break;
+        case TorqueSource::kCarry:
+            wanted_nm = gravity_nm;
+            break;
         case TorqueSource::kBrakeTest:
             wanted_nm = scale(kTorqueLimitNm, decision.brake_test_share, 0.0);
             break;

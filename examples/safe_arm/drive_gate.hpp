@@ -4,8 +4,8 @@
 /// holds the arm and tests its brakes when the supervisor says so, and falls back to the safe outputs by
 /// itself when the supervisor falls silent.
 ///
-/// @satisfies SWR-SAF-009, SWR-SAF-010, SWR-SAF-025, SWR-SAF-042      Design:
-/// docs/design/safe_arm.md#components
+/// @satisfies SWR-SAF-009, SWR-SAF-010, SWR-SAF-025, SWR-SAF-042, SWR-SAF-051
+/// Design: docs/design/safe_arm.md#components
 #ifndef EXAMPLES_SAFE_ARM_DRIVE_GATE_HPP
 #define EXAMPLES_SAFE_ARM_DRIVE_GATE_HPP
 

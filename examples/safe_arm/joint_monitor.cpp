@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "joint_monitor.hpp"
 
+#include <cmath>
+
 namespace safe_arm {
 namespace {
 
@@ -229,7 +231,7 @@ std::uint32_t JointMonitor::compare_with_model(const JointState& now) noexcept {
         return 0U;
     }
     constexpr double kShare = kFrameS / kModelTimeS;
-    std::uint32_t faults = 0U;
+    double acceleration = 0.0;  // weighted by the roots of the inertias
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
         const double needed_nm = drive.read().gravity_nm[j] + kFrictionNmSRad[j] * now.velocity_rad_s[j];
         const double difference_nm = measured.measured_torque_nm[j] - needed_nm;
@@ -238,12 +240,12 @@ std::uint32_t JointMonitor::compare_with_model(const JointState& now) noexcept {
             mean_difference_nm_[j] += kShare * (difference_nm - mean_difference_nm_[j]);
         }
         mean_rad_s_[j] += kShare * (now.velocity_rad_s[j] - mean_rad_s_[j]);
-        const double acceleration_rad_s2 = (now.velocity_rad_s[j] - mean_rad_s_[j]) / kModelTimeS;
-        const double distance_nm =
-            kInertiaMaxKgM2[j] * (acceleration_rad_s2 < 0.0 ? -acceleration_rad_s2 : acceleration_rad_s2);
-        faults |= is_within(mean_difference_nm_[j], kModelDifferenceNm[j] + distance_nm)
-                      ? 0U
-                      : to_bit(ArmFault::kPositionDoubtful);
+        acceleration += kInertiaRoot[j] * std::fabs(now.velocity_rad_s[j] - mean_rad_s_[j]) / kModelTimeS;
+    }
+    std::uint32_t faults = 0U;
+    for (std::size_t j = 0U; j < kArmJointCount; ++j) {
+        const double distance_nm = kModelDifferenceNm[j] + kInertiaRoot[j] * acceleration;
+        faults |= is_within(mean_difference_nm_[j], distance_nm) ? 0U : to_bit(ArmFault::kPositionDoubtful);
     }
     return faults;
 }

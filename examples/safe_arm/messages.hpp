@@ -67,6 +67,7 @@ enum class TorqueSource : std::uint8_t {
     kController,
     kStopLoop,   ///< the gate stops the arm and holds it
     kBrakeTest,  ///< against closed brakes
+    kCarry,      ///< against gravity at the last known position, while the brakes close
 };
 
 /// The supervisor's decision for this cycle.

@@ -10,6 +10,23 @@ namespace safe_arm {
 using mamori::Instant;
 using namespace mamori::safety;  // NOLINT: this component is made of them
 
+namespace {
+
+TorqueSource choose_source(SafeState state) noexcept {
+    switch (state) {
+        case SafeState::kSelfTest:
+            return TorqueSource::kBrakeTest;
+        case SafeState::kOperational:
+            return TorqueSource::kController;
+        case SafeState::kSafe:
+            return TorqueSource::kCarry;
+        default:
+            return TorqueSource::kStopLoop;
+    }
+}
+
+}  // namespace
+
 CycleInputs SafetySupervisor::read_inputs(Instant at) noexcept {
     const JointReading& now = reading.read();
     is_brake_test_old_ = is_over(brakes_tested_at_.read().get_value(), at, kBrakeTestInterval) ||
@@ -63,9 +80,7 @@ void SafetySupervisor::command(SafeState state, const StopOutputs& outputs) noex
     // A machine that is locked out uses both paths.
     result.relay_close = is_testing ? start_up_.is_relay_wanted() : state != SafeState::kLockedOut;
     result.brake_test_share = is_testing ? start_up_.get_push() : 0.0;
-    result.torque_source =
-        is_testing ? TorqueSource::kBrakeTest
-                   : (state == SafeState::kOperational ? TorqueSource::kController : TorqueSource::kStopLoop);
+    result.torque_source = choose_source(state);
     result.mode = reading.read().mode;
     stop.write(result);
 }

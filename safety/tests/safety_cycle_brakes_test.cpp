@@ -166,5 +166,99 @@ TEST_F(FailedBrakesTest, AFaultInTheSelfTestEndsItsTorque) {
     EXPECT_FALSE(sut_.outputs.torque_enable);
 }
 
+class BrakesFirstTest : public SafetyCycleTest {
+  protected:
+    /// The position is lost in operation; the contacts stay silent.
+    void lose(bool can_hold) {
+        operate();
+        is_contact_silent_ = true;
+        sut_.inputs.can_hold = can_hold;
+        set_present(Fault::kLost, true);
+        step();
+        ASSERT_EQ(sut_.get_state(), SafeState::kSafe);
+        ASSERT_FALSE(sut_.outputs.brake_release);
+    }
+    bool has_torque_after(int frames) {
+        for (int i = 0; i < frames; ++i) {
+            step();
+        }
+        return sut_.outputs.torque_enable;
+    }
+};
+
+TEST_F(BrakesFirstTest, TorqueCarriesTheMachineUntilTheContactsReportClosed) {
+    verifies("SWR-CYC-030");
+    ASSERT_NO_FATAL_FAILURE(lose(true));
+    EXPECT_TRUE(sut_.outputs.torque_enable && sut_.outputs.stop_requested);
+    EXPECT_TRUE(has_torque_after(5));
+    sut_.inputs.are_brakes_closed = true;
+    EXPECT_FALSE(has_torque_after(1));
+    EXPECT_FALSE(has_torque_after(1)) << "silent again: torque does not return";
+    EXPECT_FALSE(is_latched(Fault::kLate)) << "the reaction began with the brakes";
+}
+
+TEST_F(BrakesFirstTest, SilentContactsKeepTheTorqueForTheClosingTimeOnly) {
+    verifies("SWR-CYC-030", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_NO_FATAL_FAILURE(lose(true));
+    EXPECT_TRUE(has_torque_after(9)) << "told at 0 ms, closed within 10 ms";
+    EXPECT_FALSE(has_torque_after(1));
+    EXPECT_FALSE(has_torque_after(10));
+}
+
+TEST_F(BrakesFirstTest, AnyOtherCauseOfStoEndsTheTorqueAtOnce) {
+    verifies("SWR-CYC-030", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_NO_FATAL_FAILURE(lose(true));
+    ASSERT_TRUE(has_torque_after(2));
+    set_present(Fault::kFast, true);
+    EXPECT_FALSE(has_torque_after(1));
+    set_present(Fault::kFast, false);
+    EXPECT_FALSE(has_torque_after(1));
+}
+
+TEST_F(BrakesFirstTest, AMachineThatCannotBeHeldLosesItsTorqueAtOnce) {
+    verifies("SWR-CYC-030", Technique::kEquivalenceClasses, Polarity::kViolation);
+    ASSERT_NO_FATAL_FAILURE(lose(false));
+    EXPECT_FALSE(sut_.outputs.torque_enable);
+    sut_.inputs.can_hold = true;
+    EXPECT_FALSE(has_torque_after(1)) << "torque that is off does not return";
+}
+
+TEST_F(BrakesFirstTest, OtherFaultsAndOtherStatesKeepNoTorque) {
+    verifies("SWR-CYC-030", Technique::kStateTransition, Polarity::kViolation);
+    operate();
+    is_contact_silent_ = true;
+    sut_.inputs.can_hold = true;
+    set_present(Fault::kFast, true);
+    EXPECT_FALSE(has_torque_after(1)) << "a drive that is not trusted";
+    set_present(Fault::kLost, true);
+    EXPECT_FALSE(has_torque_after(1));
+}
+
+TEST_F(BrakesFirstTest, WithoutTorqueBeforeNoneIsGiven) {
+    verifies("SWR-CYC-030", Technique::kStateTransition, Polarity::kViolation);
+    for (int i = 0; i < 5 && sut_.get_state() != SafeState::kStandby; ++i) {
+        step();
+    }
+    is_contact_silent_ = true;
+    sut_.inputs.can_hold = true;
+    set_present(Fault::kLost, true);
+    EXPECT_FALSE(has_torque_after(3));
+    EXPECT_EQ(sut_.get_state(), SafeState::kSafe);
+}
+
+TEST_F(BrakesFirstTest, BrakesThatStayOpenAreALateReaction) {
+    verifies("SWR-CYC-005", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_NO_FATAL_FAILURE(operate());
+    is_obeying_ = false;
+    sut_.inputs.can_hold = true;
+    set_present(Fault::kLost, true);
+    for (int i = 0; i < 4; ++i) {
+        step();
+        ASSERT_FALSE(is_latched(Fault::kLate)) << i;
+    }
+    step();
+    EXPECT_TRUE(is_latched(Fault::kLate));
+}
+
 }  // namespace
 }  // namespace mamori::safety::testing_of_cycle

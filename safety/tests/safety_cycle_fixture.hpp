@@ -22,8 +22,8 @@ namespace mamori::safety::testing_of_cycle {
 using namespace literals;
 using namespace verification;
 
-enum class Fault : FaultIndex { kFast, kSlip, kSilent, kLate, kSelfTest, kBrake, kWarm };
-inline constexpr std::size_t kFaultCount = 7U;
+enum class Fault : FaultIndex { kFast, kSlip, kSilent, kLate, kSelfTest, kBrake, kWarm, kLost };
+inline constexpr std::size_t kFaultCount = 8U;
 inline constexpr Duration kFrame = 1_ms;
 inline constexpr Duration kTorqueFeedback = 5_ms;
 
@@ -84,17 +84,19 @@ inline Watched g_logger{"logger"};
 inline constexpr auto kSystem = safety::system(
     frame(kFrame), window("all", 0_us, kFrame, budget(kFrame), run(g_guard, g_controller, g_logger)),
     faults<Fault::kFast, Fault::kSlip, Fault::kSilent, Fault::kLate, Fault::kSelfTest, Fault::kBrake,
-           Fault::kWarm>(),
+           Fault::kWarm, Fault::kLost>(),
     react(Fault::kFast, Reaction::kSto, within(2_ms)), react(Fault::kSlip, Reaction::kSs1, within(3_ms)),
     react(Fault::kSilent, Reaction::kSs2, within(2_ms)), react(Fault::kLate, Reaction::kSto, within(1_ms)),
     react(Fault::kSelfTest, Reaction::kSto, within(2_ms)), react(Fault::kBrake, Reaction::kSs1, within(2_ms)),
-    react(Fault::kWarm, Reaction::kDegrade, within(2_ms)), confirm(Fault::kSlip, {3U}, {5U}),
-    confirm(Fault::kWarm, {1U}, {9U}), supervise(g_guard, alive(2U, 3U), deadline(100_us)),
+    react(Fault::kLost, Reaction::kSto, within(2_ms)), react(Fault::kWarm, Reaction::kDegrade, within(2_ms)),
+    confirm(Fault::kSlip, {3U}, {5U}), confirm(Fault::kWarm, {1U}, {9U}),
+    supervise(g_guard, alive(2U, 3U), deadline(100_us)),
     supervise(g_controller, alive(2U, 3U), deadline(100_us), raises(Fault::kSilent)),
     supervise(g_logger, alive(2U, 3U), deadline(100_us), raises(Fault::kWarm)),
     cycle(StopBounds{20_ms, 20_ms}, BrakeLimits{10_ms, true}, WatchdogWindow{500_us, 4_ms},
           torque_feedback(kTorqueFeedback), tolerated_lateness(50_us), on_late_reaction(raises(Fault::kLate)),
-          on_failed_self_test(raises(Fault::kSelfTest)), on_unconfirmed_brakes(raises(Fault::kBrake))));
+          on_failed_self_test(raises(Fault::kSelfTest)), on_unconfirmed_brakes(raises(Fault::kBrake)),
+          brakes_first<Fault::kLost>()));
 MAMORI_SAFETY_CHECK(kSystem);
 
 class SpyWatchdog final : public Watchdog {

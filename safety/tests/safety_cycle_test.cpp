@@ -33,7 +33,7 @@ TEST_F(SafetyCycleTest, TheTableHoldsEverythingThatIsStated) {
 TEST_F(SafetyCycleTest, TheMachineIsAskedInAFixedOrder) {
     verifies("SWR-CYC-003");
     const std::vector<std::string> faults{"fault 0", "fault 1", "fault 2", "fault 3",
-                                          "fault 4", "fault 5", "fault 6"};
+                                          "fault 4", "fault 5", "fault 6", "fault 7"};
     const auto expect_calls = [&](std::vector<std::string> before) {
         before.insert(before.end(), faults.begin(), faults.end());
         before.emplace_back("command");

@@ -122,6 +122,13 @@ TEST(SafetyRulesTest, SettingsOfTheCycleAreInRange) {
     EXPECT_EQ(check_cycle([](CycleRow& row) { row.late_fault = 2U; }), SafetyRule::kCycleFaultDeclared);
     EXPECT_EQ(check_cycle([](CycleRow& row) { row.self_test_fault = 2U; }), SafetyRule::kCycleFaultDeclared);
     EXPECT_EQ(check_cycle([](CycleRow& row) { row.brake_fault = 2U; }), SafetyRule::kCycleFaultDeclared);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.brakes_first = 3U; }), SafetyRule::kNone);
+    EXPECT_EQ(check_cycle([](CycleRow& row) { row.brakes_first = 4U; }), SafetyRule::kBrakesFirstDeclared);
+    EXPECT_EQ(check_cycle([](CycleRow& row) {
+                  row.brakes_first = 2U;
+                  row.brakes.has_contacts = false;
+              }),
+              SafetyRule::kBrakesFirstHasContacts);
 }
 
 TEST(SafetyRulesTest, ATableHasOneCycle) {

@@ -82,6 +82,9 @@ constexpr Defect kDefects[] = {
     {"LATENESS", "kLatenessInRange", "lateness is not negative"},
     {"LATE_FAULT", "kCycleFaultDeclared", "does not declare"},
     {"SELF_TEST_FAULT", "kCycleFaultDeclared", "does not declare"},
+    {"BRAKES_FIRST_OTHER_FAULT", "faults", "all faults of a system are enumerators of one enumeration"},
+    {"BRAKES_FIRST_UNDECLARED", "kBrakesFirstDeclared", "does not declare"},
+    {"BRAKES_FIRST_WITHOUT_CONTACTS", "kBrakesFirstHasContacts", "needs brakes with contacts"},
 };
 INSTANTIATE_TEST_SUITE_P(EachDefect, SafetySystemCompileTest, ::testing::ValuesIn(kDefects),
                          [](const auto& one) { return std::string{one.param.macro}; });

@@ -151,7 +151,7 @@ TEST_F(PositionEvidenceTest, FrictionAndOwnAccelerationNeedTheirTorque) {
     for (int i = 0; i < 1000; ++i) {
         const double acceleration = i < 400 ? 2.0 : -2.0;
         speed_rad_s = i < 800 ? speed_rad_s + acceleration * kFrameS : 0.0;
-        const double torque_nm = i < 800 ? kInertiaMaxKgM2[0] * acceleration : 0.0;
+        const double torque_nm = i < 800 ? kInertiaRoot[0] * kInertiaRoot[0] * acceleration : 0.0;
         reading_.measured_torque_nm[0] = torque_nm + kFrictionNmSRad[0] * speed_rad_s;
         drive_.torque_nm[0] = reading_.measured_torque_nm[0];
         ASSERT_EQ(move(0U, speed_rad_s, 1).faults, 0U) << i;

@@ -5,17 +5,17 @@
 #include "mamori/safety/reaction/reaction_table.hpp"
 
 namespace mamori::safety {
-namespace {
 
 /// A degraded mode shows in no output: it begins with the state.
-bool has_begun(Reaction reaction, const StopOutputs& applied) noexcept {
-    if (reaction < Reaction::kSs2) {
+bool SafetyCycle::has_begun(const ReactionDemand& demand, const StopOutputs& applied) const noexcept {
+    if (demand.reaction < Reaction::kSs2) {
         return true;
     }
-    return !applied.torque_enable || (reaction < Reaction::kSto && applied.stop_requested);
+    if (demand.reaction >= Reaction::kSto && waits_for_brakes(demand.fault) && !applied.brake_release) {
+        return true;
+    }
+    return !applied.torque_enable || (demand.reaction < Reaction::kSto && applied.stop_requested);
 }
-
-}  // namespace
 
 Status SafetyCycle::apply_table() noexcept {
     for (const ConfirmRow& row : state_.confirmations_) {
@@ -85,6 +85,10 @@ void SafetyCycle::decide(Instant now) noexcept {
                     static_cast<std::int64_t>(demand.reaction));
     }
     StopOutputs outputs = state_.brakes_.apply(state, now);
+    if (carries_until_closed(state, machine.can_hold, now)) {
+        outputs.torque_enable = true;
+        outputs.stop_requested = true;
+    }
     outputs.torque_enable =
         outputs.torque_enable || (state == SafeState::kSelfTest && is_self_testing_ && wants_test_torque());
     command(state, outputs);
@@ -193,6 +197,29 @@ bool SafetyCycle::have_brakes_failed(const CycleInputs& machine, SafeState state
     return state == SafeState::kProtectiveStopSs1 && machine.can_hold && machine.is_standing && is_over;
 }
 
+/// Where only the position is unknown, torque carries the machine until its brakes report closed. Any other
+/// cause of STO, such as a drive that is not trusted, ends it at once.
+bool SafetyCycle::carries_until_closed(SafeState state, bool can_hold, Instant now) const noexcept {
+    const Duration elapsed = calc_elapsed(state_.machine_.get_entered_at(), now);
+    const bool is_closing =
+        state_.brakes_.is_waiting() && elapsed >= Duration{0} && elapsed < state_.rules_.brakes.closes_within;
+    if (state != SafeState::kSafe || !can_hold || !was_torque_wanted_ || !is_closing) {
+        return false;
+    }
+    bool is_demanded = false;
+    for (std::size_t i = 0U; i < state_.faults_.get_capacity(); ++i) {
+        const auto fault = static_cast<FaultIndex>(i);
+        const FaultRecord& record = state_.faults_.get_record(fault);
+        if (record.is_latched && record.demand.reaction >= Reaction::kSto) {
+            if (!waits_for_brakes(fault)) {
+                return false;
+            }
+            is_demanded = true;
+        }
+    }
+    return is_demanded;
+}
+
 /// The stop of last resort has a confirmation too: the drives' own feedback. Memory that has changed by
 /// itself does not tell how long it has been missing, and stays so: that counts as too long.
 bool SafetyCycle::is_sto_unconfirmed(bool has_torque, Instant now) noexcept {
@@ -214,7 +241,7 @@ void SafetyCycle::measure_reaction(const ReactionDemand& demand, const StopOutpu
     is_reaction_late_ = false;
     for (std::size_t i = 0U; i < state_.faults_.get_capacity(); ++i) {
         const FaultRecord& record = state_.faults_.get_record(static_cast<FaultIndex>(i));
-        const bool is_awaited = record.is_latched && !has_begun(record.demand.reaction, applied);
+        const bool is_awaited = record.is_latched && !has_begun(record.demand, applied);
         if (is_awaited && is_over(record.latched_at, now, record.demand.within)) {
             is_reaction_late_ = true;
         }
@@ -223,7 +250,7 @@ void SafetyCycle::measure_reaction(const ReactionDemand& demand, const StopOutpu
         measured_fault_ = kNoFault;
         return;
     }
-    if (has_begun(demand.reaction, applied) && measured_fault_ != demand.fault) {
+    if (has_begun(demand, applied) && measured_fault_ != demand.fault) {
         measured_fault_ = demand.fault;
         const Duration time = calc_elapsed(state_.faults_.get_record(demand.fault).latched_at, now);
         longest_reaction_ = time > longest_reaction_ ? time : longest_reaction_;

@@ -57,16 +57,20 @@ constexpr BrakeLimits kBrakes{
 #else
     100_ms - 1_ns,
 #endif
+#if defined(MAMORI_DEFECT_BRAKES_FIRST_WITHOUT_CONTACTS)
+    false};
+#else
     true};
+#endif
 constexpr WatchdogWindow kWindow{
 #if defined(MAMORI_DEFECT_WATCHDOG_NEGATIVE)
     mamori::Duration{-1},
 #elif defined(MAMORI_DEFECT_WATCHDOG_EMPTY)
     4_ms,
 #elif defined(MAMORI_DEFECT_WATCHDOG_LATE)
-    1_ms + 1_ns,
+        1_ms + 1_ns,
 #else
-    0_ms,
+        0_ms,
 #endif
     4_ms};
 #ifdef MAMORI_DEFECT_FEEDBACK
@@ -120,7 +124,15 @@ constexpr auto kCycle = cycle(kStops, kBrakes, kWindow, kFeedback, kLateness, kO
 constexpr auto kCycle =
     cycle(kStops, kBrakes, kStops, kWindow, kFeedback, kLateness, kOnLate, kOnFailed, kOnBrakes);
 #else
-constexpr auto kCycle = cycle(kStops, kBrakes, kWindow, kFeedback, kLateness, kOnLate, kOnFailed, kOnBrakes);
+#if defined(MAMORI_DEFECT_BRAKES_FIRST_OTHER_FAULT)
+constexpr auto kFirst = mamori::safety::brakes_first<OtherFault::kFast>();
+#elif defined(MAMORI_DEFECT_BRAKES_FIRST_UNDECLARED)
+constexpr auto kFirst = mamori::safety::brakes_first<Fault::kFast, Fault::kUndeclared>();
+#else
+constexpr auto kFirst = mamori::safety::brakes_first<Fault::kFast>();
+#endif
+constexpr auto kCycle =
+    cycle(kStops, kBrakes, kWindow, kFeedback, kLateness, kOnLate, kOnFailed, kOnBrakes, kFirst);
 #endif
 
 constexpr auto kSystem = mamori::safety::system(

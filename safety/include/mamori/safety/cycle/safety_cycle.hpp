@@ -5,7 +5,7 @@
 /// A machine derives its supervisor and adds only its inputs and outputs.
 ///
 /// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009
-/// @satisfies SWR-CYC-010
+/// @satisfies SWR-CYC-010, SWR-CYC-030
 /// Design:   docs/design/safety_cycle.md#order
 #ifndef MAMORI_SAFETY_SAFETY_CYCLE_HPP
 #define MAMORI_SAFETY_SAFETY_CYCLE_HPP
@@ -114,6 +114,11 @@ class SafetyCycle : public Component, public CycleComponent {
     Status require_healing(const SuperviseRow& row) noexcept;
     void follow_reset(bool reset_button) noexcept;
     bool have_brakes_failed(const CycleInputs& machine, SafeState state, Instant now) const noexcept;
+    bool waits_for_brakes(FaultIndex fault) const noexcept {
+        return fault < 64U && ((state_.rules_.brakes_first >> fault) & 1U) != 0U;
+    }
+    bool has_begun(const ReactionDemand& demand, const StopOutputs& applied) const noexcept;
+    bool carries_until_closed(SafeState state, bool can_hold, Instant now) const noexcept;
     bool is_sto_unconfirmed(bool has_torque, Instant now) noexcept;
     void measure_reaction(const ReactionDemand& demand, const StopOutputs& applied, Instant now) noexcept;
     void service_watchdog(GlobalStatus health, bool is_trustworthy, Instant now) noexcept;

@@ -49,6 +49,7 @@ struct CycleRow {
     FaultIndex late_fault{kNoFault};       ///< a reaction started later than its within(...)
     FaultIndex self_test_fault{kNoFault};  ///< a self test or an assumption failed
     FaultIndex brake_fault{kNoFault};      ///< the brakes did not confirm their closing in time
+    std::uint64_t brakes_first{0U};        ///< faults whose STO waits for the brakes; bit n = fault n
 };
 
 namespace detail {
@@ -174,6 +175,26 @@ struct CyclePart {
     CycleRow row{};
 };
 
+/// Made by brakes_first(). @tparam Fault enumeration of the faults.
+template <typename Fault>
+struct BrakesFirst {
+    std::uint64_t faults;
+};
+/// Faults of a position that is not known, while the drives are trusted: their STO begins with the brakes
+/// (SBC), and torque carries the machine until the brakes have closed, at most for
+/// BrakeLimits::closes_within. It needs brakes with contacts and CycleInputs::can_hold. Another latched fault
+/// with STO ends the torque at once.
+/// @tparam kFault, kFaults declared faults, each below 64.
+template <auto kFault, auto... kFaults>
+constexpr BrakesFirst<decltype(kFault)> brakes_first() noexcept {
+    static_assert((std::is_same_v<decltype(kFault), decltype(kFaults)> && ...),
+                  "brakes_first<...>() names enumerators of one enumeration");
+    static_assert(detail::to_fault(kFault) < 64U && ((detail::to_fault(kFaults) < 64U) && ...),
+                  "brakes_first<...>() names faults 0 to 63");
+    return {((std::uint64_t{1U} << detail::to_fault(kFault)) | ... |
+             (std::uint64_t{1U} << detail::to_fault(kFaults)))};
+}
+
 namespace detail {
 
 constexpr void apply(CycleRow& row, StopBounds option) noexcept {
@@ -204,6 +225,23 @@ constexpr void apply(CycleRow& row, OnFault<UnconfirmedBrakesTag, Fault> option)
     row.brake_fault = option.fault;
 }
 
+template <typename Fault>
+constexpr void apply(CycleRow& row, BrakesFirst<Fault> option) noexcept {
+    row.brakes_first |= option.faults;
+}
+
+/// Enumeration of the option brakes_first(); that of the other faults without it.
+template <typename Other, typename... Options>
+struct BrakesFirstOf {
+    using Type = Other;
+};
+template <typename Other, typename Option, typename... Options>
+struct BrakesFirstOf<Other, Option, Options...> : BrakesFirstOf<Other, Options...> {};
+template <typename Other, typename Fault, typename... Options>
+struct BrakesFirstOf<Other, BrakesFirst<Fault>, Options...> {
+    using Type = Fault;
+};
+
 /// Number of `Options` that are OnFault of `Tag`, and enumeration of the first.
 template <typename Tag, typename... Options>
 struct OnFaultOf {
@@ -223,7 +261,8 @@ struct OnFaultOf<Tag, OnFault<Tag, Fault>, Options...> {
 /// Settings of the safety cycle; once per table.
 /// @param[in] options each once: StopBounds, BrakeLimits (they close within the bound of SS1),
 ///                    WatchdogWindow, torque_feedback(...), tolerated_lateness(...), on_late_reaction(...),
-///                    on_failed_self_test(...), on_unconfirmed_brakes(...).
+///                    on_failed_self_test(...), on_unconfirmed_brakes(...); and, at will,
+///                    brakes_first<...>().
 template <typename... Options>
 constexpr auto cycle(const Options&... options) noexcept {
     static_assert(extension::kIsSaidOnce<StopBounds, Options...>, "a cycle states its StopBounds once");
@@ -240,7 +279,8 @@ constexpr auto cycle(const Options&... options) noexcept {
                   "a cycle states on_failed_self_test(...) once");
     static_assert(detail::OnFaultOf<UnconfirmedBrakesTag, Options...>::kCount == 1U,
                   "a cycle states on_unconfirmed_brakes(...) once");
-    CyclePart<typename detail::OnFaultOf<LateReactionTag, Options...>::Type,
+    using LateFault = typename detail::OnFaultOf<LateReactionTag, Options...>::Type;
+    CyclePart<LateFault, typename detail::BrakesFirstOf<LateFault, Options...>::Type,
               typename detail::OnFaultOf<FailedSelfTestTag, Options...>::Type,
               typename detail::OnFaultOf<UnconfirmedBrakesTag, Options...>::Type>
         part{};

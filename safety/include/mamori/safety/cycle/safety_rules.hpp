@@ -41,6 +41,8 @@ enum class SafetyRule : std::uint8_t {
     kCycleComponentOnce,      ///< cycle
     kWatchdogFitsPeriod,      ///< cycle
     kSupervisedOnCore,        ///< supervise
+    kBrakesFirstDeclared,     ///< cycle
+    kBrakesFirstHasContacts,  ///< cycle
 };
 
 /// The first violated rule; kNone when there is none.
@@ -137,7 +139,14 @@ constexpr SafetyFinding check_cycle(const Table& table) noexcept {
     const bool are_declared = row.late_fault < table.faults.size() &&
                               row.self_test_fault < table.faults.size() &&
                               row.brake_fault < table.faults.size();
-    return {are_declared ? SafetyRule::kNone : SafetyRule::kCycleFaultDeclared, 0U};
+    if (!are_declared) {
+        return {SafetyRule::kCycleFaultDeclared, 0U};
+    }
+    if (table.faults.size() < 64U && (row.brakes_first >> table.faults.size()) != 0U) {
+        return {SafetyRule::kBrakesFirstDeclared, 0U};
+    }
+    const bool have_contacts = row.brakes_first == 0U || row.brakes.has_contacts;
+    return {have_contacts ? SafetyRule::kNone : SafetyRule::kBrakesFirstHasContacts, 0U};
 }
 
 template <typename Table>
@@ -243,6 +252,10 @@ struct SafetyTableIsSound : std::true_type {
     static_assert(kRule != SafetyRule::kSupervisedOnCore,
                   "a supervised component runs on the core and in the class of the safety cycle; other cores "
                   "have a supervision of their own");
+    static_assert(kRule != SafetyRule::kBrakesFirstDeclared,
+                  "brakes_first<...>() names a fault that faults<...>() does not declare");
+    static_assert(kRule != SafetyRule::kBrakesFirstHasContacts,
+                  "brakes_first<...>() needs brakes with contacts: torque ends when they report closed");
 };
 
 namespace detail {
