@@ -46,7 +46,7 @@ def find_sources(root: Path, toolchain: Toolchain) -> list[str]:
     boards = {"board_host"}.union(*BOARD.values())
     own = [path for path in sorted((root / TARGET).glob("*.cpp")) if path.stem in board or path.stem not in boards]
     wanted = _list_included(sorted((root / TARGET).glob("*.?pp")))
-    while (more := wanted | _list_included(root / EXAMPLE / f"{name}.hpp" for name in wanted)) != wanted:
+    while (more := wanted | _list_included(path for name in wanted for path in (root / EXAMPLE).glob(f"{name}.?pp"))) != wanted:
         wanted = more
     example = [path for path in sorted((root / EXAMPLE).glob("*.cpp")) if path.stem in wanted]
     layers = [path for layer in find_target_layers(root) for path in layer.sources()]

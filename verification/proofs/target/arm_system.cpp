@@ -123,6 +123,7 @@ void ObedientDevices::sample(std::uint64_t, Instant now) noexcept {
     inputs.emergency_stop_closed.fill(true);
     inputs.protective_stop_closed.fill(true);
     inputs.mode_selected[0] = true;
+    inputs.drive_clock_ns = now.ns + 1;  // a clock that has begun before the program
     inputs.start_button = is_pushed(kFirstStart, now) || is_pushed(kSecondStart, now);
     inputs.reset_button = is_pushed(kReset, now);
     const Duration controller_time = now < kControllerHangs ? kControllerTime : virtual_time::kNever;
