@@ -56,6 +56,10 @@ Status SafetyCycle::require_healing(const SuperviseRow& row) noexcept {
 void SafetyCycle::decide(Instant now) noexcept {
     state_.flow_.report(FlowPoint::kBegun, now);
     const CycleInputs machine = read_inputs(now);
+    if (machine.mode != followed_mode_) {
+        followed_mode_ = machine.mode;
+        state_.supervision_.follow_mode(machine.mode);
+    }
     const GlobalStatus health = state_.supervision_.step(now);
     record_expiries(now);
     const SafeState before = state_.machine_.get_state();

@@ -50,6 +50,36 @@ Status ExecutionSupervisor::deactivate(std::size_t component) noexcept {
     return result;
 }
 
+bool ExecutionSupervisor::runs_in(std::size_t component, std::size_t mode) const noexcept {
+    for (const ModeMemberRow& row : mode_members_) {
+        if (row.mode == mode && row.index == component) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void ExecutionSupervisor::follow_mode(std::size_t mode) noexcept {
+    on_mode_step(ModeStep::kLeave, mode, Instant{});
+    on_mode_step(ModeStep::kEnter, mode, Instant{});
+}
+
+/// A component is silent from the step in which it leaves to the step in which it enters. One that is not
+/// watched is refused, and one that runs in both modes keeps its counts.
+void ExecutionSupervisor::on_mode_step(ModeStep step, std::size_t index, Instant) noexcept {
+    if (index >= mode_count_ || step == ModeStep::kSet) {
+        return;
+    }
+    for (std::size_t component = 0U; component < components_.size(); ++component) {
+        const bool runs = runs_in(component, index);
+        if (step == ModeStep::kEnter && runs) {
+            static_cast<void>(activate(component));
+        } else if (step != ModeStep::kEnter && !runs) {
+            static_cast<void>(deactivate(component));
+        }
+    }
+}
+
 Status ExecutionSupervisor::acknowledge(std::size_t component) noexcept {
     if (component >= components_.size()) {
         return Status::kBadParameter;

@@ -5,7 +5,7 @@
 /// A machine derives its supervisor and adds only its inputs and outputs.
 ///
 /// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009
-/// @satisfies SWR-CYC-010, SWR-CYC-030
+/// @satisfies SWR-CYC-010, SWR-CYC-030, SWR-CYC-031
 /// Design:   docs/design/safety_cycle.md#order
 #ifndef MAMORI_SAFETY_SAFETY_CYCLE_HPP
 #define MAMORI_SAFETY_SAFETY_CYCLE_HPP
@@ -134,6 +134,7 @@ class SafetyCycle : public Component, public CycleComponent {
     Reaction worst_reaction_{Reaction::kNone};
     Duration longest_reaction_{0};
     ComponentExpiry last_expiry_{};
+    std::size_t followed_mode_{kNoIndex};  ///< by the supervision
     bool has_stepped_{false};
     bool was_torque_wanted_{false};  ///< in the frame before
     bool is_self_testing_{false};

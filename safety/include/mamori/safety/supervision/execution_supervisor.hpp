@@ -18,6 +18,7 @@
 
 #include "mamori/kernel/component/component.hpp"
 #include "mamori/kernel/run/execution_observer.hpp"
+#include "mamori/kernel/table/mode_table.hpp"
 #include "mamori/kernel/table/index_of.hpp"
 #include "mamori/safety/supervision/alive_supervisor.hpp"
 #include "mamori/safety/supervision/deadline_limits.hpp"
@@ -143,6 +144,8 @@ class ExecutionSupervisor final : public ExecutionObserver {
         : ExecutionSupervisor(static_cast<typename ExecutionStorageFor<kTable>::Slots&>(storage),
                               lateness_max) {
         table_components_ = kTable.components;
+        mode_count_ = kTable.modes.modes.size();
+        mode_members_ = kTable.modes.members;
     }
 
     /// @return index of the component in the table of the storage; kNoIndex: it is not in the table, or the
@@ -172,6 +175,11 @@ class ExecutionSupervisor final : public ExecutionObserver {
     Status deactivate(const Component& component) noexcept { return deactivate(find(component)); }
     Status activate(std::size_t component) noexcept { return alive_.activate(component); }
     Status activate(const Component& component) noexcept { return activate(find(component)); }
+
+    /// Supervises the components that run in a mode of the table, and lets the others be silent. The steps of
+    /// a mode switch do so by themselves; this is for the mode in which a system starts.
+    /// @param[in] mode index of the mode; one that the table does not have changes nothing.
+    void follow_mode(std::size_t mode) noexcept;
 
     /// Takes an expired component back to kOk. Only for a deliberate reset; an overrun or a run outside its
     /// limits that no step() has judged yet is kept.
@@ -222,6 +230,7 @@ class ExecutionSupervisor final : public ExecutionObserver {
 
     void on_budget_overrun(std::size_t window, std::size_t component, Instant now) noexcept override;
     void on_late_release(std::size_t window, Duration lateness, Instant now) noexcept override;
+    void on_mode_step(ModeStep step, std::size_t index, Instant now) noexcept override;
 
   private:
     /// What one component adds to the global status.
@@ -229,6 +238,7 @@ class ExecutionSupervisor final : public ExecutionObserver {
         GlobalStatus status;
         bool proves_something;  ///< it is active: its health is proven when nothing speaks against it
     };
+    bool runs_in(std::size_t component, std::size_t mode) const noexcept;
     void collect_overruns() noexcept;
     Share weigh(std::size_t component, Instant now) noexcept;
     void judge(std::size_t component, Instant now) noexcept;
@@ -241,6 +251,8 @@ class ExecutionSupervisor final : public ExecutionObserver {
     bool is_release_late_{false};
     GlobalStatus global_status_{GlobalStatus::kFailed};
     Span<Component* const> table_components_{};
+    std::size_t mode_count_{0U};
+    Span<const ModeMemberRow> mode_members_{};
 };
 
 }  // namespace mamori::safety
