@@ -246,6 +246,14 @@ TEST_F(BrakesFirstTest, WithoutTorqueBeforeNoneIsGiven) {
     EXPECT_EQ(sut_.get_state(), SafeState::kSafe);
 }
 
+TEST_F(BrakesFirstTest, AClockThatRunsBackwardsEndsTheTorque) {
+    verifies("SWR-CYC-030", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_NO_FATAL_FAILURE(lose(true));
+    now_ = now_ - 5_ms;
+    EXPECT_FALSE(has_torque_after(1));
+    EXPECT_EQ(sut_.get_state(), SafeState::kLockedOut);
+}
+
 TEST_F(BrakesFirstTest, BrakesThatStayOpenAreALateReaction) {
     verifies("SWR-CYC-005", Technique::kFaultInjection, Polarity::kViolation);
     ASSERT_NO_FATAL_FAILURE(operate());

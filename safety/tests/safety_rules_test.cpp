@@ -39,7 +39,8 @@ constexpr auto build(const Parts&... parts) {
 auto make_cycle(Fault late = Fault::kFast, Fault self_test = Fault::kFast, Fault brakes = Fault::kFast) {
     return cycle(StopBounds{20_ms, 20_ms}, BrakeLimits{10_ms, true}, WatchdogWindow{500_us, 4_ms},
                  torque_feedback(5_ms), tolerated_lateness(50_us), on_late_reaction(raises(late)),
-                 on_failed_self_test(raises(self_test)), on_unconfirmed_brakes(raises(brakes)));
+                 on_failed_self_test(raises(self_test)), on_unconfirmed_brakes(raises(brakes)),
+                 brakes_first<Fault::kSilent>());
 }
 
 auto build_sound() {
@@ -58,6 +59,7 @@ SafetyFinding check(Change change) {
 
 TEST(SafetyRulesTest, ASoundTableViolatesNothing) {
     verifies("SWR-CYC-002");
+    EXPECT_EQ(build_sound().cycle.brakes_first, 2U);
     EXPECT_EQ(check([](auto&) {}).rule, SafetyRule::kNone);
     EXPECT_EQ(detail::to_fault(static_cast<Fault>(0xFFFF)), kNoFault - 1U) << "out of range";
     EXPECT_EQ(detail::to_fault(static_cast<Fault>(0xFFFE)), kNoFault - 1U);
@@ -122,13 +124,26 @@ TEST(SafetyRulesTest, SettingsOfTheCycleAreInRange) {
     EXPECT_EQ(check_cycle([](CycleRow& row) { row.late_fault = 2U; }), SafetyRule::kCycleFaultDeclared);
     EXPECT_EQ(check_cycle([](CycleRow& row) { row.self_test_fault = 2U; }), SafetyRule::kCycleFaultDeclared);
     EXPECT_EQ(check_cycle([](CycleRow& row) { row.brake_fault = 2U; }), SafetyRule::kCycleFaultDeclared);
-    EXPECT_EQ(check_cycle([](CycleRow& row) { row.brakes_first = 3U; }), SafetyRule::kNone);
-    EXPECT_EQ(check_cycle([](CycleRow& row) { row.brakes_first = 4U; }), SafetyRule::kBrakesFirstDeclared);
-    EXPECT_EQ(check_cycle([](CycleRow& row) {
-                  row.brakes_first = 2U;
-                  row.brakes.has_contacts = false;
-              }),
-              SafetyRule::kBrakesFirstHasContacts);
+}
+
+TEST(SafetyRulesTest, FaultsOfBrakesFirstAreDeclaredAndTheirBrakesHaveContacts) {
+    verifies("SWR-CYC-002", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_first = [](std::uint64_t faults, std::size_t count, bool has_contacts = true) {
+        CycleRow row{};
+        row.brakes_first = faults;
+        row.brakes.has_contacts = has_contacts;
+        return detail::check_brakes_first(row, count);
+    };
+    constexpr std::uint64_t kAll = ~std::uint64_t{0U};
+    EXPECT_EQ(check_first(3U, 2U), SafetyRule::kNone);
+    EXPECT_EQ(check_first(4U, 2U), SafetyRule::kBrakesFirstDeclared);
+    EXPECT_EQ(check_first(kAll, 64U), SafetyRule::kNone);
+    EXPECT_EQ(check_first(kAll, 63U), SafetyRule::kBrakesFirstDeclared);
+    EXPECT_EQ(check_first(1U, 65U), SafetyRule::kBrakesFirstDeclared);
+    EXPECT_EQ(check_first(1U, 2U, false), SafetyRule::kBrakesFirstHasContacts);
+    EXPECT_EQ(check_first(0U, 65U, false), SafetyRule::kNone);
+    EXPECT_EQ(check([](auto& table) { table.cycle.brakes_first = 4U; }).rule,
+              SafetyRule::kBrakesFirstDeclared);
 }
 
 TEST(SafetyRulesTest, ATableHasOneCycle) {

@@ -115,7 +115,8 @@ class SafetyCycle : public Component, public CycleComponent {
     void follow_reset(bool reset_button) noexcept;
     bool have_brakes_failed(const CycleInputs& machine, SafeState state, Instant now) const noexcept;
     bool waits_for_brakes(FaultIndex fault) const noexcept {
-        return fault < 64U && ((state_.rules_.brakes_first >> fault) & 1U) != 0U;
+        return ((state_.rules_.brakes_first >> (fault & 63U)) & 1U) !=
+               0U;  // a table that uses it has at most 64
     }
     bool has_begun(const ReactionDemand& demand, const StopOutputs& applied) const noexcept;
     bool carries_until_closed(SafeState state, bool can_hold, Instant now) const noexcept;

@@ -184,7 +184,7 @@ struct BrakesFirst {
 /// (SBC), and torque carries the machine until the brakes have closed, at most for
 /// BrakeLimits::closes_within. It needs brakes with contacts and CycleInputs::can_hold. Another latched fault
 /// with STO ends the torque at once.
-/// @tparam kFault, kFaults declared faults, each below 64.
+/// @tparam kFault, kFaults declared faults of a table with at most 64 faults.
 template <auto kFault, auto... kFaults>
 constexpr BrakesFirst<decltype(kFault)> brakes_first() noexcept {
     static_assert((std::is_same_v<decltype(kFault), decltype(kFaults)> && ...),

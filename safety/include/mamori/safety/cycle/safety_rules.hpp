@@ -114,6 +114,16 @@ constexpr SafetyFinding check_confirmations(const Table& table) noexcept {
     return {};
 }
 
+constexpr SafetyRule check_brakes_first(const CycleRow& row, std::size_t fault_count) noexcept {
+    if (row.brakes_first == 0U) {
+        return SafetyRule::kNone;
+    }
+    if (fault_count > 64U || (fault_count < 64U && (row.brakes_first >> fault_count) != 0U)) {
+        return SafetyRule::kBrakesFirstDeclared;
+    }
+    return row.brakes.has_contacts ? SafetyRule::kNone : SafetyRule::kBrakesFirstHasContacts;
+}
+
 template <typename Table>
 constexpr SafetyFinding check_cycle(const Table& table) noexcept {
     constexpr Duration kNothing{0};
@@ -142,11 +152,7 @@ constexpr SafetyFinding check_cycle(const Table& table) noexcept {
     if (!are_declared) {
         return {SafetyRule::kCycleFaultDeclared, 0U};
     }
-    if (table.faults.size() < 64U && (row.brakes_first >> table.faults.size()) != 0U) {
-        return {SafetyRule::kBrakesFirstDeclared, 0U};
-    }
-    const bool have_contacts = row.brakes_first == 0U || row.brakes.has_contacts;
-    return {have_contacts ? SafetyRule::kNone : SafetyRule::kBrakesFirstHasContacts, 0U};
+    return {check_brakes_first(row, table.faults.size()), 0U};
 }
 
 template <typename Table>
@@ -252,8 +258,10 @@ struct SafetyTableIsSound : std::true_type {
     static_assert(kRule != SafetyRule::kSupervisedOnCore,
                   "a supervised component runs on the core and in the class of the safety cycle; other cores "
                   "have a supervision of their own");
-    static_assert(kRule != SafetyRule::kBrakesFirstDeclared,
-                  "brakes_first<...>() names a fault that faults<...>() does not declare");
+    static_assert(
+        kRule != SafetyRule::kBrakesFirstDeclared,
+        "brakes_first<...>() names a fault that faults<...>() does not declare, or the table has more than "
+        "64 faults");
     static_assert(kRule != SafetyRule::kBrakesFirstHasContacts,
                   "brakes_first<...>() needs brakes with contacts: torque ends when they report closed");
 };
