@@ -148,13 +148,17 @@ static_assert(kRestTravelRad > kDiscrepancyRad);
 /// Feedback of a switch-off path may contradict its command for this long.
 inline constexpr mamori::Duration kPathTime = 20_ms;
 /// The clocks of processor and drives may differ by this much: 5 ms of jitter between processes. A safe speed
-/// that is measured with such a clock is still below the mechanical limit. Two windows find any deviation.
+/// that is measured with such a clock is still below the mechanical limit. A larger deviation is found by the
+/// end of the second window.
 inline constexpr mamori::safety::ClockRatioLimits kClockLimits{100_ms, 50'000U};
-/// The torque of a joint and the torque that its measured motion needs may differ by this much [N m], as mean
-/// values over kModelTimeS. Accelerations complete gravity and friction [N m s/rad]: an entry of the mass
-/// matrix is at most the product of the roots of its two diagonal entries, the maximum inertias [kg^0.5 m].
+/// The torque of a joint and the torque of gravity and friction at its measured position and speed may differ
+/// by this much [N m], as mean values over kModelTimeS [s]. The limit grows with the accelerations, because
+/// the check omits inertia: an entry of the mass matrix is at most the product of the roots of its two
+/// diagonal entries.
 inline constexpr mamori::safety::JointVector kModelDifferenceNm{2.0, 4.0, 1.2, 2.5, 0.25, 0.3, 0.25};
+/// Roots of the maximum inertias [kg^0.5 m].
 inline constexpr mamori::safety::JointVector kInertiaRoot{2.0, 2.0, 1.0, 1.0, 0.32, 0.32, 0.32};
+/// Viscous friction [N m s/rad].
 inline constexpr mamori::safety::JointVector kFrictionNmSRad{5.0, 5.0, 1.0, 1.0, 0.05, 0.05, 0.05};
 inline constexpr double kModelTimeS = 0.5;
 /// The measured position may be this far on the wrong side of the reference switch [rad].

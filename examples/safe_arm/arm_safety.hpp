@@ -65,9 +65,9 @@ constexpr auto make_arm_safety(mamori::Duration lateness_max) noexcept {
                       safety::on_late_reaction(safety::raises(ArmFault::kReactionLate)),
                       safety::on_failed_self_test(safety::raises(ArmFault::kSelfTestFailed)),
                       safety::on_unconfirmed_brakes(safety::raises(ArmFault::kBrakeFault)),
-                      // Position or time is unknown, and the drives are trusted.
+                      // Only the position is unknown: drives and clock are trusted.
                       safety::brakes_first<ArmFault::kEncoderDiscrepancy, ArmFault::kEncoderStuck,
-                                           ArmFault::kClockDeviation, ArmFault::kPositionDoubtful>()));
+                                           ArmFault::kPositionDoubtful>()));
 }
 
 }  // namespace safe_arm

@@ -44,8 +44,8 @@ Status JointMonitor::on_execute(ContextHandle context) noexcept {
             (result.position_rad[j] - past_rad_[oldest_][j]) / (static_cast<double>(kSpeedCycles) * kFrameS);
     }
     result.faults |= judge_stuck(now) | judge_motion(result) | judge_torque(now) | judge_brakes(now) |
-                     judge_power(now) | check_rest(result) | judge_reference(result.position_rad) |
-                     compare_with_model(result) | judge_clock(Instant{now.drive_clock_ns}, context.now);
+                     judge_power(now) | check_rest(result) | check_reference(result.position_rad) |
+                     compare_with_model(result) | check_clock(Instant{now.drive_clock_ns}, context.now);
     const bool is_fresh = is_command_fresh(context.now);
     if (is_controlled() && !is_fresh) {
         result.faults |= to_bit(ArmFault::kCommandStale);
@@ -75,6 +75,7 @@ void JointMonitor::begin_history(const JointReading& now) noexcept {
     stuck_since_rad_ = command.read().setpoint_rad;
     resting_for_ = {};
     clocks_ = ClockRatio{kClockLimits};
+    has_drive_clock_ = false;
     has_history_ = true;
 }
 
@@ -203,16 +204,15 @@ std::uint32_t JointMonitor::check_rest(const JointState& now) noexcept {
                 ArmFault::kMovementAtRest);
 }
 
-/// Until the first sample there is nothing to compare, and nothing to start.
-std::uint32_t JointMonitor::judge_clock(Instant drives, Instant own) noexcept {
-    if (drives == Instant{}) {
-        return 0U;
-    }
-    return clocks_.step(drives, own) == ClockVerdict::kViolated ? to_bit(ArmFault::kClockDeviation) : 0U;
+/// Before the first sample, there is nothing to compare, and no start.
+std::uint32_t JointMonitor::check_clock(Instant drives, Instant own) noexcept {
+    has_drive_clock_ = has_drive_clock_ || drives != Instant{};
+    const bool is_violated = has_drive_clock_ && clocks_.step(drives, own) == ClockVerdict::kViolated;
+    return is_violated ? to_bit(ArmFault::kClockDeviation) : 0U;
 }
 
-/// A third opinion about the position of each joint, where both channels may have one cause of failure.
-std::uint32_t JointMonitor::judge_reference(const JointVector& position_rad) noexcept {
+/// An independent check of the position of each joint: both channels may fail by one cause.
+std::uint32_t JointMonitor::check_reference(const JointVector& position_rad) noexcept {
     std::uint32_t faults = 0U;
     for (std::size_t j = 0U; j < kArmJointCount; ++j) {
         const double inside_rad = reading.read().reference_closed[j] ? position_rad[j] : -position_rad[j];
@@ -221,13 +221,17 @@ std::uint32_t JointMonitor::judge_reference(const JointVector& position_rad) noe
     return faults;
 }
 
-/// An arm that moves where the encoders do not show it needs another torque against gravity. What a joint
-/// accelerates by is the difference of its speed from its mean.
+/// If the true position differs from the measured one, gravity needs a different torque. The difference of a
+/// speed from its mean, divided by the time of the mean, is the filtered acceleration. Closed brakes, also
+/// those that fail to close, take any torque. A contact that flickers does not clear the mean.
 std::uint32_t JointMonitor::compare_with_model(const JointState& now) noexcept {
     const JointReading& measured = reading.read();
-    if (!is_torque_on() || !measured.torque_enabled || !measured.brakes_open) {
+    if (!is_torque_on() || !drive.read().brake_release) {
         mean_difference_nm_ = {};
         mean_rad_s_ = now.velocity_rad_s;
+        return 0U;
+    }
+    if (!measured.torque_enabled || !measured.brakes_open) {
         return 0U;
     }
     constexpr double kShare = kFrameS / kModelTimeS;

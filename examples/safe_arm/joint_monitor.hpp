@@ -51,8 +51,8 @@ class JointMonitor final : public mamori::Component {
     std::uint32_t judge_power(const JointReading& now) noexcept;
     std::uint32_t judge_brakes(const JointReading& now) noexcept;
     std::uint32_t check_rest(const JointState& now) noexcept;
-    std::uint32_t judge_clock(mamori::Instant drives, mamori::Instant own) noexcept;
-    std::uint32_t judge_reference(const JointVector& position_rad) noexcept;
+    std::uint32_t check_clock(mamori::Instant drives, mamori::Instant own) noexcept;
+    std::uint32_t check_reference(const JointVector& position_rad) noexcept;
     std::uint32_t compare_with_model(const JointState& now) noexcept;
     bool is_command_fresh(mamori::Instant now) const noexcept;
     bool is_controlled() const noexcept {
@@ -76,6 +76,7 @@ class JointMonitor final : public mamori::Component {
     mamori::Duration resting_for_{};
     JointVector rest_rad_{};  ///< where the brakes engaged
     mamori::safety::ClockRatio clocks_{kClockLimits};
+    bool has_drive_clock_{false};
     JointVector mean_difference_nm_{};  ///< of the torque from gravity and friction
     JointVector mean_rad_s_{};          ///< over the same time
     bool has_history_{false};

@@ -20,9 +20,16 @@ TorqueSource choose_source(SafeState state) noexcept {
             return TorqueSource::kController;
         case SafeState::kSafe:
             return TorqueSource::kCarry;
-        default:
-            return TorqueSource::kStopLoop;
+        case SafeState::kStandby:
+        case SafeState::kDegraded:
+        case SafeState::kProtectiveStopSs2:
+        case SafeState::kProtectiveStopSs1:
+        case SafeState::kStandstillHold:
+        case SafeState::kLockedOut:
+        case SafeState::kLockedHold:
+            break;
     }
+    return TorqueSource::kStopLoop;
 }
 
 }  // namespace
@@ -44,8 +51,10 @@ CycleInputs SafetySupervisor::read_inputs(Instant at) noexcept {
         arm_state.read().is_setpoint_near && arm_state.read().is_clock_checked && now.panel_faults == 0U;
     // By the gate. One valid encoder channel suffices; an unknown position demands STO.
     inputs.can_hold = true;
+    const TorqueSource source = drive.read().source;
+    const bool is_stopping = source == TorqueSource::kStopLoop || source == TorqueSource::kCarry;
     inputs.applied = {drive.read().torque_enable, drive.read().brake_release,
-                      drive.read().torque_enable && drive.read().source == TorqueSource::kStopLoop, false};
+                      drive.read().torque_enable && is_stopping, false};
     return inputs;
 }
 

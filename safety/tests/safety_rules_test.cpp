@@ -126,24 +126,26 @@ TEST(SafetyRulesTest, SettingsOfTheCycleAreInRange) {
     EXPECT_EQ(check_cycle([](CycleRow& row) { row.brake_fault = 2U; }), SafetyRule::kCycleFaultDeclared);
 }
 
-TEST(SafetyRulesTest, FaultsOfBrakesFirstAreDeclaredAndTheirBrakesHaveContacts) {
+TEST(SafetyRulesTest, FaultsOfBrakesFirstAreDeclaredLeadToStoAndTheirBrakesHaveContacts) {
     verifies("SWR-CYC-002", Technique::kBoundaryValues, Polarity::kViolation);
-    const auto check_first = [](std::uint64_t faults, std::size_t count, bool has_contacts = true) {
+    constexpr std::uint64_t kAll = ~std::uint64_t{0U};
+    const auto check_first = [](std::uint64_t faults, std::size_t count, std::uint64_t sto,
+                                bool has_contacts) {
         CycleRow row{};
         row.brakes_first = faults;
         row.brakes.has_contacts = has_contacts;
-        return detail::check_brakes_first(row, count);
+        return detail::check_brakes_first(row, count, sto);
     };
-    constexpr std::uint64_t kAll = ~std::uint64_t{0U};
-    EXPECT_EQ(check_first(3U, 2U), SafetyRule::kNone);
-    EXPECT_EQ(check_first(4U, 2U), SafetyRule::kBrakesFirstDeclared);
-    EXPECT_EQ(check_first(kAll, 64U), SafetyRule::kNone);
-    EXPECT_EQ(check_first(kAll, 63U), SafetyRule::kBrakesFirstDeclared);
-    EXPECT_EQ(check_first(1U, 65U), SafetyRule::kBrakesFirstDeclared);
-    EXPECT_EQ(check_first(1U, 2U, false), SafetyRule::kBrakesFirstHasContacts);
-    EXPECT_EQ(check_first(0U, 65U, false), SafetyRule::kNone);
-    EXPECT_EQ(check([](auto& table) { table.cycle.brakes_first = 4U; }).rule,
-              SafetyRule::kBrakesFirstDeclared);
+    EXPECT_EQ(check_first(3U, 2U, 3U, true), SafetyRule::kNone);
+    EXPECT_EQ(check_first(4U, 2U, kAll, true), SafetyRule::kBrakesFirstDeclared);
+    EXPECT_EQ(check_first(kAll, 64U, kAll, true), SafetyRule::kNone);
+    EXPECT_EQ(check_first(kAll, 63U, kAll, true), SafetyRule::kBrakesFirstDeclared);
+    EXPECT_EQ(check_first(1U, 65U, kAll, true), SafetyRule::kBrakesFirstDeclared);
+    EXPECT_EQ(check_first(3U, 2U, 2U, true), SafetyRule::kBrakesFirstBySto);
+    EXPECT_EQ(check_first(1U, 2U, 3U, false), SafetyRule::kBrakesFirstHasContacts);
+    EXPECT_EQ(check_first(0U, 65U, 0U, false), SafetyRule::kNone);
+    EXPECT_EQ(check([](auto& table) { table.cycle.brakes_first = 1U; }).rule, SafetyRule::kBrakesFirstBySto)
+        << "its reaction is SS1";
 }
 
 TEST(SafetyRulesTest, ATableHasOneCycle) {

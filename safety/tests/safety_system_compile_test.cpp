@@ -84,6 +84,7 @@ constexpr Defect kDefects[] = {
     {"SELF_TEST_FAULT", "kCycleFaultDeclared", "does not declare"},
     {"BRAKES_FIRST_OTHER_FAULT", "faults", "all faults of a system are enumerators of one enumeration"},
     {"BRAKES_FIRST_UNDECLARED", "kBrakesFirstDeclared", "does not declare"},
+    {"BRAKES_FIRST_BY_SS1", "kBrakesFirstBySto", "whose reaction is STO in no mode"},
     {"BRAKES_FIRST_WITHOUT_CONTACTS", "kBrakesFirstHasContacts", "needs brakes with contacts"},
 };
 INSTANTIATE_TEST_SUITE_P(EachDefect, SafetySystemCompileTest, ::testing::ValuesIn(kDefects),

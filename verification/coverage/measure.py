@@ -14,7 +14,7 @@ from collections.abc import Container, Sequence
 from pathlib import Path
 from typing import Any
 
-from mamori_tools.host.project import SANITIZED, UNSANITIZED_LABEL, Project
+from mamori_tools.host.project import LONG_LABEL, SANITIZED, Project
 from mamori_trace.base.errors import WorkError
 
 LAYERS = ("kernel", "safety", "ports/conformance", "ports/lcm", "ports/posix_rt", "ports/virtual_time")  # the tests of each layer must cover it
@@ -35,7 +35,7 @@ def measure_layer(root: Path, layer: str, build: Path, jobs: int) -> dict[str, A
     newer. @return the coverage of its sources. @raise WorkError."""
     folder, tests = root / layer, build / layer
     listing = json.loads(run(("ctest", "--test-dir", str(tests), "--show-only=json-v1")))
-    programs = {test["name"]: Path(test["command"][0]) for test in listing["tests"] if UNSANITIZED_LABEL not in list_labels(test)}
+    programs = {test["name"]: Path(test["command"][0]) for test in listing["tests"] if LONG_LABEL not in list_labels(test)}
     if not programs:
         raise WorkError(f"{tests} has no test program; nothing was measured")
     profiles = build / "evidence" / "profiles" / folder.name

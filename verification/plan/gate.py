@@ -9,7 +9,7 @@ from __future__ import annotations
 from mamori_tools.host.environment import renew_environment
 from mamori_tools.host.exit_status import EXIT_UNFINISHED
 from mamori_tools.host.plans import BUILD, COMMAND, PYTHON, build_step, campaign_step, timing_step, trace_steps
-from mamori_tools.host.project import CHECKED_LAYERS, RELEASE, ROOT, SANITIZED, UNSANITIZED_LABEL, Project
+from mamori_tools.host.project import CHECKED_LAYERS, LONG_LABEL, RELEASE, ROOT, SANITIZED, Project
 from mamori_tools.host.steps import Action, Step, Tier
 
 PYTEST = (*PYTHON, "pytest", "-q", "-p", "no:cacheprovider", "--junitxml={result}")
@@ -221,7 +221,7 @@ def list_verify_steps(campaign: Action) -> tuple[Step, ...]:
 def list_test_steps(project: Project, campaign: Action, tier: Tier, mutation_minutes: int | None = None) -> tuple[Step, ...]:
     """@param mutation_minutes limit of the step that tries all mutants without a stored result; None: no limit."""
     # These tests take half of the time of all C++ tests.
-    without_long = ("--label-exclude", UNSANITIZED_LABEL)
+    without_long = ("--label-exclude", LONG_LABEL)
     fewer = without_long if tier == Tier.QUICK else ()
     limit = () if mutation_minutes is None else ("--minutes", str(mutation_minutes))
     steps = (

@@ -78,6 +78,14 @@ TEST_F(PositionEvidenceTest, AClockThatRunsBackwardsIsReportedAtOnce) {
     EXPECT_EQ(run_clock(-1.0, 1).faults, kDeviation);
 }
 
+TEST_F(PositionEvidenceTest, AClockThatReturnsToZeroIsReported) {
+    verifies("SWR-SAF-046", Technique::kErrorGuessing, Polarity::kViolation);
+    ASSERT_EQ(run_clock(1.0, 2 * kWindow).faults, 0U);
+    drive_clock_ns_ = 0.0;
+    EXPECT_EQ(run_clock(0.0, 1).faults, kDeviation);
+    EXPECT_EQ(run_clock(0.0, 10).faults, kDeviation) << "it stays";
+}
+
 TEST_F(PositionEvidenceTest, WithoutASampleOfTheDrivesNoClockIsChecked) {
     verifies("SWR-SAF-047", Technique::kErrorGuessing, Polarity::kViolation);
     for (int i = 0; i < 3 * kWindow; ++i) {
@@ -156,6 +164,25 @@ TEST_F(PositionEvidenceTest, FrictionAndOwnAccelerationNeedTheirTorque) {
         drive_.torque_nm[0] = reading_.measured_torque_nm[0];
         ASSERT_EQ(move(0U, speed_rad_s, 1).faults, 0U) << i;
     }
+}
+
+TEST_F(PositionEvidenceTest, AContactThatFlickersDoesNotClearTheMean) {
+    verifies("SWR-SAF-049", Technique::kErrorGuessing, Polarity::kViolation);
+    std::uint32_t faults = 0U;
+    for (int i = 0; i < 20; ++i) {
+        faults |= push(1U, 2.0 * kModelDifferenceNm[1], 100);
+        reading_.brakes_open = !reading_.brakes_open;
+        step();
+        reading_.brakes_open = !reading_.brakes_open;
+    }
+    EXPECT_EQ(faults, kDoubtful);
+}
+
+TEST_F(PositionEvidenceTest, AHoldBehindFailedBrakesMayTakeAnyTorque) {
+    verifies("SWR-SAF-049", Technique::kEquivalenceClasses);
+    drive_.source = TorqueSource::kStopLoop;
+    drive_.brake_release = false;
+    EXPECT_EQ(push(1U, 60.0, kSettled) & kDoubtful, 0U) << "open brakes that were commanded to close";
 }
 
 TEST_F(PositionEvidenceTest, WithClosedBrakesTheTorqueShowsNoPosition) {

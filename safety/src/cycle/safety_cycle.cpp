@@ -204,9 +204,7 @@ bool SafetyCycle::have_brakes_failed(const CycleInputs& machine, SafeState state
 /// Where only the position is unknown, torque carries the machine until its brakes report closed. Any other
 /// cause of STO, such as a drive that is not trusted, ends it at once.
 bool SafetyCycle::carries_until_closed(SafeState state, bool can_hold, Instant now) const noexcept {
-    const Duration elapsed = calc_elapsed(state_.machine_.get_entered_at(), now);
-    const bool is_closing =
-        state_.brakes_.is_waiting() && elapsed >= Duration{0} && elapsed < state_.rules_.brakes.closes_within;
+    const bool is_closing = state_.brakes_.is_waiting() && !state_.brakes_.is_overdue(now);
     if (state != SafeState::kSafe || !can_hold || !was_torque_wanted_ || !is_closing) {
         return false;
     }

@@ -28,6 +28,8 @@ enum class OtherFault { kFast };
 constexpr auto kAnswer = Stop::kGently;
 #elif defined(MAMORI_DEFECT_REACTION)
 constexpr auto kAnswer = Stop::kAtOnce;
+#elif defined(MAMORI_DEFECT_BRAKES_FIRST_BY_SS1)
+constexpr auto kAnswer = Reaction::kSs1;
 #else
 constexpr auto kAnswer = Reaction::kSto;
 #endif

@@ -51,15 +51,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="BodyMotion YAML file or table (time and joints) to follow; default: the shipped motion")  # fmt: skip
     parser.add_argument("--scenario", nargs="+", default=[], metavar="NAME", action="extend",
                         help="only these fault scenarios; default: all of none, encoder_freeze, encoder_freeze_shoulder, encoder_freeze_both, "
-                             "encoder_bit_flip, encoder_bias, encoder_drift_shoulder, encoder_drift_wrist, clock_fast, clock_slow, controller_hang, torque_runaway_shoulder, torque_runaway_elbow, "
-                             "torque_runaway_wrist, message_lost, message_late, message_lost_once, message_damaged, message_damaged_once, "
-                             "controller_drops_arm, controller_swings_arm, power_loss, supervisor_hang, "
-                             "brake_stuck_open, brakes_stuck_open, sto_ignored, relay_stuck, start_with_weak_brake, start_with_sto_ignored, "
-                             "start_with_relay_stuck, processor_stops, processor_stops_relay_stuck, processor_stops_sto_ignored, emergency_stop, "
-                             "emergency_stop_channel_a, emergency_stop_channel_b, emergency_stop_reset_stuck, protective_stop, "
-                             "protective_stop_channel_a, protective_stop_channel_b, protective_stop_start_stuck, start_with_start_stuck, "
-                             "start_with_creeping_brake, reduced_speed, hold_to_run, enabling_released, "
-                             "enabling_released_channel_a, enabling_squeezed, run_released, enabling_released_in_automatic, mode_changed")  # fmt: skip
+                             "encoder_bit_flip, encoder_bias, encoder_drift_shoulder, encoder_drift_upper_arm, encoder_drift_wrist, clock_fast, "
+                             "clock_slow, controller_hang, torque_runaway_shoulder, torque_runaway_elbow, torque_runaway_wrist, message_lost, "
+                             "message_late, message_lost_once, message_damaged, message_damaged_once, controller_drops_arm, controller_swings_arm, "
+                             "power_loss, supervisor_hang, brake_stuck_open, brakes_stuck_open, sto_ignored, relay_stuck, start_with_weak_brake, "
+                             "start_with_sto_ignored, start_with_relay_stuck, processor_stops, processor_stops_relay_stuck, "
+                             "processor_stops_sto_ignored, emergency_stop, emergency_stop_channel_a, emergency_stop_channel_b, "
+                             "emergency_stop_reset_stuck, protective_stop, protective_stop_channel_a, protective_stop_channel_b, "
+                             "protective_stop_start_stuck, start_with_start_stuck, start_with_creeping_brake, reduced_speed, hold_to_run, "
+                             "enabling_released, enabling_released_channel_a, enabling_squeezed, run_released, enabling_released_in_automatic, "
+                             "mode_changed")  # fmt: skip
     parser.add_argument("--instants", type=at_least_one, metavar="N",
                         help="inject each fault at the first N instants (at least 1) of the campaign plan; default: all instants")  # fmt: skip
     add_jobs(parser)

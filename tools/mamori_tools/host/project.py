@@ -10,9 +10,9 @@ ROOT = Path(__file__).resolve().parents[3]
 
 RELEASE = "host-release"
 SANITIZED = "host-asan"
-UNSANITIZED_LABEL = "unsanitized"
-"""CTest's label of a test that only runs the compiler, or that tries so many cases that a sanitizer takes minutes. Other tests of the same
-code run with sanitizers."""
+LONG_LABEL = "long"
+"""CTest's label of a test that only runs the compiler, or that tries so many cases or instructions that it takes minutes with sanitizers.
+Shorter tests of the same code run with sanitizers."""
 CPP_SUFFIXES = (".hpp", ".cpp")
 CPP_LAYERS = ("kernel", "safety", "ports", "simbody_sim", "examples", "tools", "trace", "verification")
 CHECKED_LAYERS = ("kernel", "safety", "ports")

@@ -227,18 +227,21 @@ constexpr void apply(CycleRow& row, OnFault<UnconfirmedBrakesTag, Fault> option)
 
 template <typename Fault>
 constexpr void apply(CycleRow& row, BrakesFirst<Fault> option) noexcept {
-    row.brakes_first |= option.faults;
+    row.brakes_first = option.faults;
 }
 
-/// Enumeration of the option brakes_first(); that of the other faults without it.
+/// Number of `Options` that are BrakesFirst, and enumeration of the first; that of the other faults without
+/// it.
 template <typename Other, typename... Options>
 struct BrakesFirstOf {
+    static constexpr std::size_t kCount = 0U;
     using Type = Other;
 };
 template <typename Other, typename Option, typename... Options>
 struct BrakesFirstOf<Other, Option, Options...> : BrakesFirstOf<Other, Options...> {};
 template <typename Other, typename Fault, typename... Options>
 struct BrakesFirstOf<Other, BrakesFirst<Fault>, Options...> {
+    static constexpr std::size_t kCount = 1U + BrakesFirstOf<Other, Options...>::kCount;
     using Type = Fault;
 };
 
@@ -261,7 +264,7 @@ struct OnFaultOf<Tag, OnFault<Tag, Fault>, Options...> {
 /// Settings of the safety cycle; once per table.
 /// @param[in] options each once: StopBounds, BrakeLimits (they close within the bound of SS1),
 ///                    WatchdogWindow, torque_feedback(...), tolerated_lateness(...), on_late_reaction(...),
-///                    on_failed_self_test(...), on_unconfirmed_brakes(...); and, at will,
+///                    on_failed_self_test(...), on_unconfirmed_brakes(...); optional:
 ///                    brakes_first<...>().
 template <typename... Options>
 constexpr auto cycle(const Options&... options) noexcept {
@@ -279,6 +282,8 @@ constexpr auto cycle(const Options&... options) noexcept {
                   "a cycle states on_failed_self_test(...) once");
     static_assert(detail::OnFaultOf<UnconfirmedBrakesTag, Options...>::kCount == 1U,
                   "a cycle states on_unconfirmed_brakes(...) once");
+    static_assert(detail::BrakesFirstOf<void, Options...>::kCount <= 1U,
+                  "a cycle states brakes_first<...>() once");
     using LateFault = typename detail::OnFaultOf<LateReactionTag, Options...>::Type;
     CyclePart<LateFault, typename detail::BrakesFirstOf<LateFault, Options...>::Type,
               typename detail::OnFaultOf<FailedSelfTestTag, Options...>::Type,

@@ -43,6 +43,7 @@ enum class SafetyRule : std::uint8_t {
     kSupervisedOnCore,        ///< supervise
     kBrakesFirstDeclared,     ///< cycle
     kBrakesFirstHasContacts,  ///< cycle
+    kBrakesFirstBySto,        ///< cycle
 };
 
 /// The first violated rule; kNone when there is none.
@@ -114,14 +115,31 @@ constexpr SafetyFinding check_confirmations(const Table& table) noexcept {
     return {};
 }
 
-constexpr SafetyRule check_brakes_first(const CycleRow& row, std::size_t fault_count) noexcept {
+/// @param[in] sto faults with the reaction STO: bit n = fault n.
+constexpr SafetyRule check_brakes_first(const CycleRow& row, std::size_t fault_count,
+                                        std::uint64_t sto) noexcept {
     if (row.brakes_first == 0U) {
         return SafetyRule::kNone;
     }
     if (fault_count > 64U || (fault_count < 64U && (row.brakes_first >> fault_count) != 0U)) {
         return SafetyRule::kBrakesFirstDeclared;
     }
+    if ((row.brakes_first & ~sto) != 0U) {
+        return SafetyRule::kBrakesFirstBySto;
+    }
     return row.brakes.has_contacts ? SafetyRule::kNone : SafetyRule::kBrakesFirstHasContacts;
+}
+
+template <typename Table>
+constexpr std::uint64_t list_sto_faults(const Table& table) noexcept {
+    std::uint64_t faults = 0U;
+    for (std::size_t i = 0U; i < table.reactions.size(); ++i) {
+        const ReactionRow& row = table.reactions[i];
+        if (row.reaction == static_cast<std::uint32_t>(Reaction::kSto)) {
+            faults |= std::uint64_t{1U} << (row.fault & 63U);
+        }
+    }
+    return faults;
 }
 
 template <typename Table>
@@ -152,7 +170,7 @@ constexpr SafetyFinding check_cycle(const Table& table) noexcept {
     if (!are_declared) {
         return {SafetyRule::kCycleFaultDeclared, 0U};
     }
-    return {check_brakes_first(row, table.faults.size()), 0U};
+    return {check_brakes_first(row, table.faults.size(), list_sto_faults(table)), 0U};
 }
 
 template <typename Table>
@@ -262,6 +280,8 @@ struct SafetyTableIsSound : std::true_type {
         kRule != SafetyRule::kBrakesFirstDeclared,
         "brakes_first<...>() names a fault that faults<...>() does not declare, or the table has more than "
         "64 faults");
+    static_assert(kRule != SafetyRule::kBrakesFirstBySto,
+                  "brakes_first<...>() names a fault whose reaction is STO in no mode");
     static_assert(kRule != SafetyRule::kBrakesFirstHasContacts,
                   "brakes_first<...>() needs brakes with contacts: torque ends when they report closed");
 };

@@ -24,7 +24,7 @@ enum class SafeState : std::uint8_t {
     kProtectiveStopSs2 = 5U,  ///< controlled stop under way, will be held under torque
     kProtectiveStopSs1 = 6U,  ///< controlled stop under way, torque will be cut
     kStandstillHold = 7U,     ///< stands, held under torque (SOS)
-    kSafe = 8U,               ///< torque off, brakes closed, waits for a deliberate reset
+    kSafe = 8U,               ///< torque off, brakes closed, waits for a deliberate reset; see brakes_first()
     kLockedOut = 9U,          ///< torque off, brakes closed, until power is cycled
     kLockedHold = 10U,        ///< stands, held under torque because its brakes failed, until power is cycled
 };
