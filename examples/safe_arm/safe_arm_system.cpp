@@ -8,8 +8,10 @@
 namespace safe_arm {
 
 using mamori::safety::alive;
+using mamori::safety::confirmed_by;
 using mamori::safety::deadline;
 using mamori::safety::raises;
+using mamori::safety::StopConfirmation;
 using mamori::safety::supervise;
 
 // Components are defined beside their table: the compiler then compares their addresses under every
@@ -42,6 +44,8 @@ static constexpr auto kSafeArm = mamori::safety::system(
     supervise(command_receiver, alive(), deadline(kSafetyComponentMax)),
     supervise(gate, alive(), deadline(kSafetyComponentMax)),
     supervise(controller, alive(), deadline(kControllerMax), raises(ArmFault::kControllerSilent)),
+    confirmed_by(monitor.state, StopConfirmation::kStandstill),
+    confirmed_by(reader.reading, StopConfirmation::kClosedBrakes, StopConfirmation::kTorqueOff),
     mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),
     mamori::window("control", 300_us, 400_us, mamori::budget(350_us),
                    mamori::run(controller, command_sender)),

@@ -90,7 +90,7 @@ TEST_F(FailedBrakesTest, AMachineThatCannotBeHeldOrMovesLosesItsTorqueAtTheBound
         Instant now{};
         const auto run = [&](int frames) {
             for (int i = 0; i < frames; ++i) {
-                for (std::size_t c = 0U; c < 3U; ++c) {
+                for (std::size_t c = 0U; c < kSystem.components.size(); ++c) {
                     state.get_observer().get_records()[c].note_run(now, now + 10_us);
                 }
                 EXPECT_EQ(machine.on_execute({0, now}), Status::kOk);

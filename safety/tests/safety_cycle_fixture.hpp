@@ -74,15 +74,26 @@ class FakeMachine final : public SafetyCycle {
     }
 };
 
+class Sensor final : public Component {
+  public:
+    constexpr explicit Sensor(const char* name) noexcept : Component(name) {}
+    OutPort<std::uint32_t> seen{*this, "seen"};
+    using Ports = mamori::Ports<&Sensor::seen>;
+};
 class Decider final : public Component, public CycleComponent {
   public:
     constexpr explicit Decider(const char* name) noexcept : Component(name) {}
+    InPort<std::uint32_t> seen{*this, "seen"};
+    using Ports = mamori::Ports<&Decider::seen>;
 };
 inline Decider g_guard{"guard"};
 inline Watched g_controller{"controller"};
 inline Watched g_logger{"logger"};
+inline Sensor g_sensor{"sensor"};
 inline constexpr auto kSystem = safety::system(
-    frame(kFrame), window("all", 0_us, kFrame, budget(kFrame), run(g_guard, g_controller, g_logger)),
+    frame(kFrame), window("all", 100_us, 900_us, budget(900_us), run(g_guard, g_controller, g_logger)),
+    window("sense", 0_us, 100_us, budget(100_us), run(g_sensor)),
+    connect(g_sensor.seen, g_guard.seen, any_age()),
     faults<Fault::kFast, Fault::kSlip, Fault::kSilent, Fault::kLate, Fault::kSelfTest, Fault::kBrake,
            Fault::kWarm, Fault::kLost>(),
     react(Fault::kFast, Reaction::kSto, within(2_ms)), react(Fault::kSlip, Reaction::kSs1, within(3_ms)),
@@ -93,6 +104,9 @@ inline constexpr auto kSystem = safety::system(
     supervise(g_guard, alive(2U, 3U), deadline(100_us)),
     supervise(g_controller, alive(2U, 3U), deadline(100_us), raises(Fault::kSilent)),
     supervise(g_logger, alive(2U, 3U), deadline(100_us), raises(Fault::kWarm)),
+    supervise(g_sensor, alive(2U, 3U), deadline(100_us)),
+    confirmed_by(g_sensor.seen, StopConfirmation::kStandstill, StopConfirmation::kClosedBrakes,
+                 StopConfirmation::kTorqueOff),
     cycle(StopBounds{20_ms, 20_ms}, BrakeLimits{10_ms, true}, WatchdogWindow{500_us, 4_ms},
           torque_feedback(kTorqueFeedback), tolerated_lateness(50_us), on_late_reaction(raises(Fault::kLate)),
           on_failed_self_test(raises(Fault::kSelfTest)), on_unconfirmed_brakes(raises(Fault::kBrake)),
@@ -135,6 +149,9 @@ class SafetyCycleTest : public ::testing::Test {
             state_.get_observer().get_records()[0U].note_run(now_, now_ + 10_us);
         }
         state_.get_observer().get_records()[2U].note_run(now_, now_ + 10_us);
+        if (is_sensor_running_) {
+            state_.get_observer().get_records()[3U].note_run(now_, now_ + 10_us);
+        }
         if (is_controller_running_) {
             state_.get_observer().get_records()[1U].note_run(now_, now_ + 10_us);
         }
@@ -199,6 +216,7 @@ class SafetyCycleTest : public ::testing::Test {
     Instant now_{};
     bool is_guard_running_{true};
     bool is_controller_running_{true};
+    bool is_sensor_running_{true};
     bool is_obeying_{true};
     bool is_contact_silent_{false};  ///< of the brakes
 };

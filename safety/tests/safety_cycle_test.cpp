@@ -12,17 +12,19 @@ namespace {
 
 TEST_F(SafetyCycleTest, TheTableHoldsEverythingThatIsStated) {
     verifies("SWR-CYC-001");
-    EXPECT_EQ(kSystem.windows.size(), 1U);
+    EXPECT_EQ(kSystem.windows.size(), 2U);
     EXPECT_EQ(kSystem.faults.size(), kFaultCount);
     EXPECT_EQ(kSystem.reactions[1U].within, 3_ms);
     ASSERT_EQ(kSystem.confirmations.size(), 2U);
     EXPECT_EQ(kSystem.confirmations[0U].fault, static_cast<FaultIndex>(Fault::kSlip));
     EXPECT_EQ(kSystem.confirmations[0U].healing.cycles, 5U);
-    ASSERT_EQ(kSystem.supervised.size(), 3U);
+    ASSERT_EQ(kSystem.supervised.size(), 4U);
     EXPECT_EQ(kSystem.supervised[0U].watch.component, &g_guard);
     EXPECT_EQ(kSystem.supervised[0U].fault, kNoFault);
     EXPECT_EQ(kSystem.supervised[1U].watch.limits.deadline.longest, 100_us);
     EXPECT_EQ(kSystem.supervised[1U].fault, static_cast<FaultIndex>(Fault::kSilent));
+    ASSERT_EQ(kSystem.stop_sources.size(), 1U);
+    EXPECT_EQ(kSystem.stop_sources[0U].port, &g_sensor.seen);
     EXPECT_EQ(kSystem.cycle.brakes.closes_within, 10_ms);
     EXPECT_EQ(kSystem.cycle.late_fault, static_cast<FaultIndex>(Fault::kLate));
     EXPECT_EQ(kSystem.cycle.self_test_fault, static_cast<FaultIndex>(Fault::kSelfTest));
@@ -411,6 +413,82 @@ TEST_F(SafetyCycleTest, TorqueThatEndsInTimeConfirmsTheStop) {
     for (int i = 0; i < 20; ++i) {
         ASSERT_EQ(step(), SafeState::kSafe);
     }
+}
+
+// ---- Sources of confirmations ----
+
+TEST_F(SafetyCycleTest, AHealthySourceConfirmsAStop) {
+    verifies("SWR-CYC-013", Technique::kBoundaryValues);
+    operate();
+    set_present(Fault::kSilent, true);
+    step();
+    ASSERT_EQ(sut_.get_state(), SafeState::kProtectiveStopSs2);
+    sut_.inputs.is_standing = true;
+    is_sensor_running_ = false;
+
+    EXPECT_EQ(step(), SafeState::kStandstillHold) << "one cycle without a run is not late";
+}
+
+TEST_F(SafetyCycleTest, ALateSourceConfirmsNoStandstill) {
+    verifies("SWR-CYC-013", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    is_sensor_running_ = false;
+    step();
+    set_present(Fault::kSilent, true);
+    sut_.inputs.is_standing = true;
+
+    EXPECT_EQ(step(), SafeState::kProtectiveStopSs2);
+    for (int i = 0; i < 19; ++i) {
+        EXPECT_EQ(step(), SafeState::kProtectiveStopSs2) << i;
+    }
+    EXPECT_EQ(step(), SafeState::kProtectiveStopSs1) << "at its bound of 20 ms";
+}
+
+TEST_F(SafetyCycleTest, AnExpiredSourceConfirmsNoBrakesAndNoEndOfTorque) {
+    verifies("SWR-CYC-013", Technique::kFaultInjection, Polarity::kViolation);
+    operate();
+    set_present(Fault::kFast, true);
+    step();
+    is_sensor_running_ = false;
+    ASSERT_EQ(step(), SafeState::kSafe);
+
+    // Late from the second frame on; the time of torque is that since the frame before.
+    for (std::int64_t i = 1; i <= kTorqueFeedback.ns / kFrame.ns; ++i) {
+        ASSERT_EQ(step(), SafeState::kSafe) << i;
+    }
+    EXPECT_EQ(step(), SafeState::kLockedOut) << "torque may be on";
+    for (int i = 0; i < 10; ++i) {
+        step();
+    }
+    EXPECT_TRUE(is_latched(Fault::kBrake));
+}
+
+constexpr auto kWithoutSource = safety::system(
+    frame(kFrame), window("all", 0_us, kFrame, budget(kFrame), run(g_sensor, g_guard)),
+    connect(g_sensor.seen, g_guard.seen, any_age()), faults<Fault::kFast>(),
+    react(Fault::kFast, Reaction::kSto, within(2_ms)), supervise(g_guard, alive(), deadline(100_us)),
+    supervise(g_sensor, alive(), deadline(100_us)),
+    confirmed_by(g_sensor.seen, StopConfirmation::kClosedBrakes, StopConfirmation::kTorqueOff),
+    cycle(StopBounds{20_ms, 20_ms}, BrakeLimits{10_ms, true}, WatchdogWindow{500_us, 4_ms},
+          torque_feedback(kTorqueFeedback), tolerated_lateness(50_us), on_late_reaction(raises(Fault::kFast)),
+          on_failed_self_test(raises(Fault::kFast)), on_unconfirmed_brakes(raises(Fault::kFast))));
+MAMORI_SAFETY_CHECK(kWithoutSource);
+
+TEST_F(SafetyCycleTest, AConfirmationThatNoStopNeedsHasNoSource) {
+    verifies("SWR-CYC-013", Technique::kEquivalenceClasses);
+    SafetyStorage<kWithoutSource> storage;
+    SafetyState state{storage, watchdog_};
+    FakeMachine machine{state, nullptr};
+    ASSERT_EQ(machine.initialize(), Status::kOk);
+    machine.inputs = {true, true, false, false, false, true, {}, 0U, false};
+    for (int i = 0; i < 4; ++i) {
+        state.get_observer().get_records()[0U].note_run(now_, now_ + 10_us);
+        state.get_observer().get_records()[1U].note_run(now_, now_ + 10_us);
+        machine.inputs.start_button = i == 3;
+        EXPECT_EQ(machine.on_execute({0, now_}), Status::kOk);
+        now_ = now_ + kFrame;
+    }
+    EXPECT_EQ(machine.get_state(), SafeState::kOperational) << "it stands, as the machine reports";
 }
 
 TEST_F(SafetyCycleTest, AFlippedBitOfTheTimeWithTorqueLocksOut) {

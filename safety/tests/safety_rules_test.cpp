@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "mamori/trace/verifies.hpp"
 
 namespace mamori::safety {
@@ -20,20 +22,36 @@ class Watched final : public Component {
   public:
     constexpr explicit Watched(const char* name) noexcept : Component(name) {}
 };
+class Sensor final : public Component {
+  public:
+    constexpr explicit Sensor(const char* name) noexcept : Component(name) {}
+    OutPort<std::uint32_t> seen{*this, "seen"};
+    OutPort<std::uint32_t> spare{*this, "spare"};
+    using Ports = mamori::Ports<&Sensor::seen, &Sensor::spare>;
+};
 class Decider final : public Component, public CycleComponent {
   public:
     constexpr Decider() noexcept : Component("guard") {}
+    InPort<std::uint32_t> seen{*this, "seen"};
+    using Ports = mamori::Ports<&Decider::seen>;
 };
 Decider g_guard;
 Watched g_controller{"controller"};
 Watched g_stranger{"stranger"};
+Sensor g_sensor{"sensor"};
+Sensor g_strange_sensor{"strange_sensor"};
+constexpr auto kStandstill = StopConfirmation::kStandstill;
+constexpr auto kClosedBrakes = StopConfirmation::kClosedBrakes;
+constexpr auto kTorqueOff = StopConfirmation::kTorqueOff;
 
 template <typename... Parts>
 constexpr auto build(const Parts&... parts) {
-    return safety::system(frame(1_ms), window("all", 0_us, 1_ms, budget(1_ms), run(g_guard, g_controller)),
-                          faults<Fault::kFast, Fault::kSilent>(),
-                          react(Fault::kFast, Reaction::kSs1, within(2_ms)),
-                          react(Fault::kSilent, Reaction::kSto, within(2_ms)), parts...);
+    return safety::system(
+        frame(1_ms), window("all", 0_us, 1_ms, budget(1_ms), run(g_sensor, g_guard, g_controller)),
+        connect(g_sensor.seen, g_guard.seen, any_age()), supervise(g_sensor, alive(), deadline(1_ms)),
+        confirmed_by(g_sensor.seen, kStandstill, kClosedBrakes, kTorqueOff),
+        faults<Fault::kFast, Fault::kSilent>(), react(Fault::kFast, Reaction::kSs1, within(2_ms)),
+        react(Fault::kSilent, Reaction::kSto, within(2_ms)), parts...);
 }
 
 auto make_cycle(Fault late = Fault::kFast, Fault self_test = Fault::kFast, Fault brakes = Fault::kFast) {
@@ -74,17 +92,21 @@ TEST(SafetyRulesTest, FaultsAndReactionsAreThoseOfTheSafetyLayer) {
 
 TEST(SafetyRulesTest, SupervisionIsOfComponentsOfTheTableInRange) {
     verifies("SWR-CYC-002", Technique::kBoundaryValues, Polarity::kViolation);
-    EXPECT_EQ(check([](auto& table) { table.supervised[1U].watch.component = &g_stranger; }).rule,
+    EXPECT_EQ(check([](auto& table) { table.supervised[2U].watch.component = &g_stranger; }).rule,
               SafetyRule::kSupervisedInTable);
-    EXPECT_EQ(check([](auto& table) { table.supervised[1U].watch.component = &g_guard; }).rule,
+    EXPECT_EQ(check([](auto& table) { table.supervised[2U].watch.component = &g_guard; }).rule,
               SafetyRule::kSupervisedOnce);
-    EXPECT_EQ(check([](auto& table) { table.supervised[1U].watch.limits.alive = {3U, 2U}; }).rule,
+    EXPECT_EQ(check([](auto& table) { table.supervised[2U].watch.limits.alive = {3U, 2U}; }).rule,
               SafetyRule::kAliveInRange);
-    EXPECT_EQ(check([](auto& table) { table.supervised[1U].watch.limits.deadline = {}; }).rule,
+    EXPECT_EQ(check([](auto& table) { table.supervised[2U].watch.limits.deadline = {}; }).rule,
               SafetyRule::kDeadlineInRange);
-    EXPECT_EQ(check([](auto& table) { table.supervised[1U].fault = 2U; }).rule,
+    EXPECT_EQ(check([](auto& table) { table.supervised[2U].fault = 2U; }).rule,
               SafetyRule::kRaisedFaultDeclared);
-    EXPECT_EQ(check([](auto& table) { table.supervised[0U].fault = 1U; }).rule, SafetyRule::kSomethingProven);
+    EXPECT_EQ(check([](auto& table) {
+                  table.supervised[0U].fault = 1U;
+                  table.supervised[1U].fault = 1U;
+              }).rule,
+              SafetyRule::kSomethingProven);
 }
 
 TEST(SafetyRulesTest, ConfirmationsAreOfDeclaredFaultsOnce) {
@@ -166,10 +188,103 @@ constexpr auto kSound =
 TEST(SafetyRulesTest, TheCheckOfAConstantTableAnswersWhileRunningToo) {
     verifies("SWR-CYC-002", Technique::kInterface);
     EXPECT_TRUE(keeps_safety_rules<kSound>());
-    EXPECT_TRUE((std::is_same_v<decltype(detail::show_faulty<kSound, SafetyRule::kAliveInRange, 0U>()),
+    EXPECT_TRUE((std::is_same_v<decltype(detail::show_faulty<kSound, SafetyRule::kAliveInRange, 1U>()),
                                 detail::Shown<Decider>>));
+    EXPECT_TRUE((std::is_same_v<decltype(detail::show_faulty<kSound, SafetyRule::kSourceConnected, 0U>()),
+                                detail::Shown<Sensor>>));
+    EXPECT_TRUE((std::is_same_v<decltype(detail::show_faulty<kSound, SafetyRule::kStopConfirmed, 1U>()),
+                                detail::Shown<Unconfirmed<kClosedBrakes>>>));
     static_cast<void>(detail::show_faulty<kSound, SafetyRule::kNone, 0U>());
     static_cast<void>(detail::show_faulty<kSound, SafetyRule::kAliveInRange, 0U>());
+    static_cast<void>(detail::show_faulty<kSound, SafetyRule::kSourceConnected, 0U>());
+    static_cast<void>(detail::show_faulty<kSound, SafetyRule::kStopConfirmed, 0U>());
+}
+
+// ---- Sources of confirmations ----
+
+TEST(StopSourceRulesTest, EachKindOfStopNeedsItsConfirmations) {
+    verifies("SWR-CYC-012", Technique::kEquivalenceClasses);
+    const auto find_missing = [](Reaction reaction, bool has_contacts) {
+        std::vector<StopConfirmation> missing;
+        for (const StopConfirmation confirmation : {kStandstill, kClosedBrakes, kTorqueOff}) {
+            const SafetyFinding finding = check([&](auto& table) {
+                table.cycle.brakes_first = 0U;
+                table.reactions[0U].reaction = static_cast<std::uint32_t>(Reaction::kDegrade);
+                table.reactions[1U].reaction = static_cast<std::uint32_t>(reaction);
+                table.cycle.brakes.has_contacts = has_contacts;
+                table.stop_sources[0U].confirms[static_cast<std::size_t>(confirmation)] = false;
+            });
+            if (finding.rule == SafetyRule::kStopConfirmed) {
+                EXPECT_EQ(finding.row, static_cast<std::size_t>(confirmation));
+                missing.push_back(confirmation);
+            }
+        }
+        return missing;
+    };
+    using All = std::vector<StopConfirmation>;
+    EXPECT_EQ(find_missing(Reaction::kDegrade, true), All{});
+    EXPECT_EQ(find_missing(Reaction::kSs2, true), (All{kStandstill, kClosedBrakes, kTorqueOff}));
+    EXPECT_EQ(find_missing(Reaction::kSs1, true), (All{kStandstill, kClosedBrakes, kTorqueOff}));
+    EXPECT_EQ(find_missing(Reaction::kSs1, false), (All{kStandstill, kTorqueOff}));
+    EXPECT_EQ(find_missing(Reaction::kSto, true), (All{kClosedBrakes, kTorqueOff}));
+    EXPECT_EQ(find_missing(Reaction::kSto, false), (All{kTorqueOff}));
+}
+
+TEST(StopSourceRulesTest, AConfirmationHasOneSupervisedSourceOfTheTable) {
+    verifies("SWR-CYC-012", Technique::kEquivalenceClasses, Polarity::kViolation);
+    EXPECT_EQ(check([](auto& table) { table.stop_sources[0U].port = &g_strange_sensor.seen; }).rule,
+              SafetyRule::kSourceInTable);
+    const auto guard = supervise(g_guard, alive(), deadline(1_ms));
+    const auto again = build(guard, confirmed_by(g_sensor.spare, kTorqueOff), make_cycle());
+    EXPECT_EQ(detail::check_safety(again).rule, SafetyRule::kConfirmedByOnce);
+    EXPECT_EQ(detail::check_safety(again).row, 1U);
+    auto unsupervised = build(guard, make_cycle());
+    unsupervised.supervised[0U].watch.component = &g_controller;
+    EXPECT_EQ(detail::check_safety(unsupervised).rule, SafetyRule::kSourceSupervised);
+}
+
+TEST(StopSourceRulesTest, ASourceIsConnectedToTheCycleInEachOfItsModes) {
+    verifies("SWR-CYC-012", Technique::kEquivalenceClasses, Polarity::kViolation);
+    const auto check_source = [](auto change) {
+        auto table = build_sound();
+        change(table);
+        return detail::check_sources_of_cycle(table, 1U).rule;
+    };
+    EXPECT_EQ(check_source([](auto&) {}), SafetyRule::kNone);
+    EXPECT_EQ(check_source([](auto& table) { table.stop_sources[0U].port = &g_sensor.spare; }),
+              SafetyRule::kSourceConnected);
+    EXPECT_EQ(check_source([](auto& table) { table.connections[0U].sink_component = 2U; }),
+              SafetyRule::kSourceConnected);
+    EXPECT_EQ(check_source([](auto& table) { table.connections[0U].idle_modes = 2U; }),
+              SafetyRule::kSourceConnected);
+    EXPECT_EQ(check_source([](auto& table) {
+                  table.connections[0U].idle_modes = 2U;
+                  table.component_rows[1U].modes = 1U;
+              }),
+              SafetyRule::kNone);
+}
+
+TEST(StopSourceRulesTest, ASourceRunsBeforeTheCycleAndAtLeastAsOften) {
+    verifies("SWR-CYC-012", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_order = [](Duration offset, Duration period) {
+        const auto table =
+            safety::system(frame(6_ms), window("cycle", 1_ms, 1_ms, every(3_ms), budget(1_ms), run(g_guard)),
+                           window("source", offset, 1_ms, every(period), budget(1_ms), run(g_sensor)),
+                           connect(g_sensor.seen, g_guard.seen, any_age()), faults<Fault::kFast>(),
+                           confirmed_by(g_sensor.seen, kStandstill, kClosedBrakes, kTorqueOff));
+        return detail::check_sources_of_cycle(table, 0U).rule;
+    };
+    EXPECT_EQ(check_order(0_ms, 3_ms), SafetyRule::kNone);
+    EXPECT_EQ(check_order(1_ms - 1_ns, 1_ms), SafetyRule::kNone);
+    EXPECT_EQ(check_order(1_ms, 3_ms), SafetyRule::kSourceBeforeCycle);
+    EXPECT_EQ(check_order(2_ms, 3_ms), SafetyRule::kSourceBeforeCycle);
+    EXPECT_EQ(check_order(0_ms, 2_ms), SafetyRule::kSourceBeforeCycle) << "it misses a cycle";
+    EXPECT_EQ(check_order(0_ms, 6_ms), SafetyRule::kSourceBeforeCycle);
+    auto delayed = build_sound();
+    EXPECT_EQ(detail::check_sources_of_cycle(delayed, 1U).rule, SafetyRule::kNone);
+    delayed.connections[0U].is_forward_in_window = false;
+    EXPECT_EQ(detail::check_sources_of_cycle(delayed, 1U).rule, SafetyRule::kSourceBeforeCycle);
+    EXPECT_EQ(detail::check_sources_of_cycle(build_sound(), 0U).rule, SafetyRule::kSourceConnected);
 }
 
 TEST(SafetyRulesTest, ThePeriodOfTheCycleIsInsideTheWindowOfTheWatchdog) {

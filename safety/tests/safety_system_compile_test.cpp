@@ -26,14 +26,25 @@ TEST(SafetySystemCompileTest, ATableWithoutADefectCompiles) {
     EXPECT_EQ(result.exit_status, 0) << result.messages;
 }
 
-TEST_P(SafetySystemCompileTest, IsRejectedWithTheFaultyElement) {
-    verifies("SWR-CYC-002", Technique::kBoundaryValues, Polarity::kViolation);
+void expect_rejected(const Defect& defect) {
     const rig::Compilation result =
-        rig::compile("safety_system_source.cpp", std::string{"MAMORI_DEFECT_"} + GetParam().macro);
+        rig::compile("safety_system_source.cpp", std::string{"MAMORI_DEFECT_"} + defect.macro);
 
     EXPECT_EQ(result.exit_status, 1) << result.messages;
-    EXPECT_TRUE(result.names(GetParam().faulty)) << result.messages;
-    EXPECT_TRUE(result.names(GetParam().sentence)) << result.messages;
+    EXPECT_TRUE(result.names(defect.faulty)) << result.messages;
+    EXPECT_TRUE(result.names(defect.sentence)) << result.messages;
+}
+
+TEST_P(SafetySystemCompileTest, IsRejectedWithTheFaultyElement) {
+    verifies("SWR-CYC-002", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_rejected(GetParam());
+}
+
+class StopSourceCompileTest : public ::testing::TestWithParam<Defect> {};
+
+TEST_P(StopSourceCompileTest, IsRejectedWithTheFaultyElement) {
+    verifies("SWR-CYC-012", Technique::kEquivalenceClasses, Polarity::kViolation);
+    expect_rejected(GetParam());
 }
 
 constexpr Defect kDefects[] = {
@@ -87,7 +98,23 @@ constexpr Defect kDefects[] = {
     {"BRAKES_FIRST_BY_SS1", "kBrakesFirstBySto", "whose reaction is STO in no mode"},
     {"BRAKES_FIRST_WITHOUT_CONTACTS", "kBrakesFirstHasContacts", "needs brakes with contacts"},
 };
+constexpr Defect kSourceDefects[] = {
+    {"NO_STANDSTILL", "Unconfirmed<mamori::safety::StopConfirmation::kStandstill>",
+     "nothing confirms the stop"},
+    {"NO_CLOSED_BRAKES", "Unconfirmed<mamori::safety::StopConfirmation::kClosedBrakes>",
+     "nothing confirms the stop"},
+    {"NO_TORQUE_OFF", "Unconfirmed<mamori::safety::StopConfirmation::kTorqueOff>",
+     "nothing confirms the stop"},
+    {"SOURCE_TWICE", "TableRow<1>", "deliver one confirmation"},
+    {"SOURCE_STRANGER", "TableRow<0>", "confirmed_by(...) names an output of a component that no window"},
+    {"SOURCE_UNSUPERVISED", "Reader", "the component that confirms a stop has no supervise(...)"},
+    {"SOURCE_UNCONNECTED", "Reader", "is connected to the safety cycle"},
+    {"SOURCE_LATER", "Reader", "runs before the safety cycle"},
+    {"SOURCE_OF_NOTHING", "confirmed_by", "names an output and what it confirms"},
+};
 INSTANTIATE_TEST_SUITE_P(EachDefect, SafetySystemCompileTest, ::testing::ValuesIn(kDefects),
+                         [](const auto& one) { return std::string{one.param.macro}; });
+INSTANTIATE_TEST_SUITE_P(EachDefect, StopSourceCompileTest, ::testing::ValuesIn(kSourceDefects),
                          [](const auto& one) { return std::string{one.param.macro}; });
 
 }  // namespace

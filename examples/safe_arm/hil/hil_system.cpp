@@ -11,8 +11,10 @@
 namespace safe_arm::hil {
 
 using mamori::safety::alive;
+using mamori::safety::confirmed_by;
 using mamori::safety::deadline;
 using mamori::safety::raises;
+using mamori::safety::StopConfirmation;
 using mamori::safety::supervise;
 
 mamori::safety::ArmInputs inputs;
@@ -59,6 +61,8 @@ static constexpr auto kHilSystem = mamori::safety::system(
     supervise(monitor, alive(), deadline(390_us)), supervise(supervisor, alive(), deadline(390_us)),
     supervise(gate, alive(), deadline(390_us)), supervise(encoder, alive(), deadline(390_us)),
     supervise(command_receiver, alive(), deadline(390_us), raises(ArmFault::kControllerSilent)),
+    confirmed_by(monitor.state, StopConfirmation::kStandstill),
+    confirmed_by(filter.out, StopConfirmation::kClosedBrakes, StopConfirmation::kTorqueOff),
     mamori::window(
         "protect", 0_us, 400_us, mamori::budget(390_us),
         mamori::run(device_receiver, device_image, reader, filter, hang_point, monitor, supervisor)),

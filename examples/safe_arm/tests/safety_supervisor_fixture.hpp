@@ -26,7 +26,17 @@ class Supervised final : public mamori::Component {
 class InsteadOfCycle final : public mamori::Component, public mamori::safety::CycleComponent {
   public:
     constexpr explicit InsteadOfCycle(const char* name) noexcept : Component(name) {}
+    mamori::InPort<JointState> state{*this, "state"};
+    using Ports = mamori::Ports<&InsteadOfCycle::state>;
 };
+/// In the table instead of reader and monitor.
+class Measuring final : public mamori::Component {
+  public:
+    constexpr explicit Measuring(const char* name) noexcept : Component(name) {}
+    mamori::OutPort<JointState> state{*this, "state"};
+    using Ports = mamori::Ports<&Measuring::state>;
+};
+Measuring g_measuring{"measuring"};
 InsteadOfCycle g_other{"other"};
 Supervised g_controller{"controller"};
 constexpr auto kSupervised = mamori::safety::system(
@@ -36,9 +46,17 @@ constexpr auto kSupervised = mamori::safety::system(
     mamori::safety::supervise(g_controller, mamori::safety::alive(),
                               mamori::safety::deadline(kSafetyComponentMax),
                               mamori::safety::raises(ArmFault::kControllerSilent)),
-    mamori::window("all", 0_us, kFrame, mamori::budget(kFrame), mamori::run(g_other, g_controller)));
+    mamori::safety::supervise(g_measuring, mamori::safety::alive(),
+                              mamori::safety::deadline(kSafetyComponentMax)),
+    mamori::safety::confirmed_by(g_measuring.state, mamori::safety::StopConfirmation::kStandstill,
+                                 mamori::safety::StopConfirmation::kClosedBrakes,
+                                 mamori::safety::StopConfirmation::kTorqueOff),
+    mamori::connect(g_measuring.state, g_other.state, mamori::any_age()),
+    mamori::window("all", 0_us, kFrame, mamori::budget(kFrame),
+                   mamori::run(g_measuring, g_other, g_controller)));
 constexpr std::size_t kOther = mamori::index_of(kSupervised, g_other);
 constexpr std::size_t kController = mamori::index_of(kSupervised, g_controller);
+constexpr std::size_t kMeasuring = mamori::index_of(kSupervised, g_measuring);
 
 class SpyWatchdog final : public mamori::safety::Watchdog {
   public:
@@ -79,6 +97,7 @@ class SafetySupervisorFixture : public ::testing::Test {
     /// One frame: the components run as `is_other_running_` and `is_controller_running_` say, then the
     /// supervisor decides.
     StopCommand step() {
+        supervision_.get_records()[kMeasuring].note_run(now_, now_ + 10_us);
         if (is_other_running_) {
             supervision_.get_records()[kOther].note_run(now_, now_ + 10_us);
         }

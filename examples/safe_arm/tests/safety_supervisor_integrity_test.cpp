@@ -91,6 +91,7 @@ TEST_F(SupervisorIntegrityTest, WatchdogIsNotServedOnceAStepCameOutOfItsOrder) {
         safety.get_flow().report(point, now_ + 1_us);  // control flow that came to a step from nowhere
         for (int i = 0; i < 3; ++i) {
             now_ = now_ + kFrame;
+            safety.get_observer().get_records()[kMeasuring].note_run(now_, now_ + 10_us);
             safety.get_observer().get_records()[kOther].note_run(now_, now_ + 10_us);
             safety.get_observer().get_records()[kController].note_run(now_, now_ + 10_us);
             ASSERT_EQ(sut.on_execute({0, now_}), Status::kOk);

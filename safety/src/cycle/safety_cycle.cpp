@@ -55,12 +55,13 @@ Status SafetyCycle::require_healing(const SuperviseRow& row) noexcept {
 
 void SafetyCycle::decide(Instant now) noexcept {
     state_.flow_.report(FlowPoint::kBegun, now);
-    const CycleInputs machine = read_inputs(now);
+    CycleInputs machine = read_inputs(now);
     if (machine.mode != followed_mode_) {
         followed_mode_ = machine.mode;
         state_.supervision_.follow_mode(machine.mode);
     }
     const GlobalStatus health = state_.supervision_.step(now);
+    drop_unproven(machine);
     record_expiries(now);
     const SafeState before = state_.machine_.get_state();
     SafeStateInputs inputs{};
@@ -102,6 +103,18 @@ void SafetyCycle::decide(Instant now) noexcept {
     was_torque_wanted_ = outputs.torque_enable;
     stepped_at_ = now;
     has_stepped_ = true;
+}
+
+/// The value of a source that is late or expired may be old: it confirms nothing.
+void SafetyCycle::drop_unproven(CycleInputs& machine) const noexcept {
+    machine.is_standing = machine.is_standing && is_proven(StopConfirmation::kStandstill);
+    machine.are_brakes_closed = machine.are_brakes_closed && is_proven(StopConfirmation::kClosedBrakes);
+    machine.has_torque = machine.has_torque || !is_proven(StopConfirmation::kTorqueOff);
+}
+
+bool SafetyCycle::is_proven(StopConfirmation confirmation) const noexcept {
+    const std::size_t source = state_.stop_sources_[static_cast<std::size_t>(confirmation)];
+    return source == kNoIndex || state_.supervision_.get_local_status(source) == LocalStatus::kOk;
 }
 
 SelfTestStatus SafetyCycle::test(Instant now) noexcept {

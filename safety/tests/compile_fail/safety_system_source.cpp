@@ -10,10 +10,14 @@ using namespace mamori::safety;
 class Reader final : public mamori::Component {
   public:
     constexpr explicit Reader(const char* name) noexcept : Component(name) {}
+    mamori::OutPort<std::uint32_t> seen{*this, "seen"};
+    using Ports = mamori::Ports<&Reader::seen>;
 };
 class Decider final : public mamori::Component, public CycleComponent {
   public:
     constexpr Decider() noexcept : Component("decider") {}
+    mamori::InPort<std::uint32_t, mamori::Need::kOptional> seen{*this, "seen"};
+    using Ports = mamori::Ports<&Decider::seen>;
 };
 Reader reader{"reader"};
 Reader stranger{"stranger"};
@@ -28,10 +32,8 @@ enum class OtherFault { kFast };
 constexpr auto kAnswer = Stop::kGently;
 #elif defined(MAMORI_DEFECT_REACTION)
 constexpr auto kAnswer = Stop::kAtOnce;
-#elif defined(MAMORI_DEFECT_BRAKES_FIRST_BY_SS1)
-constexpr auto kAnswer = Reaction::kSs1;
 #else
-constexpr auto kAnswer = Reaction::kSto;
+constexpr auto kAnswer = Reaction::kSs1;
 #endif
 #ifdef MAMORI_DEFECT_NUMBERS
 constexpr auto kFaults = mamori::faults<Fault::kSilent, Fault::kFast, Fault::kLate, Fault::kSelfTest>();
@@ -129,9 +131,9 @@ constexpr auto kCycle =
 #if defined(MAMORI_DEFECT_BRAKES_FIRST_OTHER_FAULT)
 constexpr auto kFirst = mamori::safety::brakes_first<OtherFault::kFast>();
 #elif defined(MAMORI_DEFECT_BRAKES_FIRST_UNDECLARED)
-constexpr auto kFirst = mamori::safety::brakes_first<Fault::kFast, Fault::kUndeclared>();
+constexpr auto kFirst = mamori::safety::brakes_first<Fault::kLate, Fault::kUndeclared>();
 #else
-constexpr auto kFirst = mamori::safety::brakes_first<Fault::kFast>();
+constexpr auto kFirst = mamori::safety::brakes_first<Fault::kLate>();
 #endif
 constexpr auto kCycle =
     cycle(kStops, kBrakes, kWindow, kFeedback, kLateness, kOnLate, kOnFailed, kOnBrakes, kFirst);
@@ -148,14 +150,25 @@ constexpr auto kSystem = mamori::safety::system(
 #elif defined(MAMORI_DEFECT_NO_MODE)
     mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(reader, decider)),
     mamori::safe_mode("halt", mamori::runs(decider)), kFaults,
+#elif defined(MAMORI_DEFECT_SOURCE_LATER)
+    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(decider, reader)), kFaults,
 #else
     mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(reader, decider)), kFaults,
+#endif
+#if defined(MAMORI_DEFECT_SOURCE_LATER)
+    mamori::connect(reader.seen, decider.seen, mamori::any_age(), mamori::delayed_by_a_frame()),
+#elif !defined(MAMORI_DEFECT_SOURCE_UNCONNECTED) && !defined(MAMORI_DEFECT_OTHER_CORE)
+    mamori::connect(reader.seen, decider.seen, mamori::any_age()),
 #endif
 #ifndef MAMORI_DEFECT_UNANSWERED
     mamori::react(Fault::kFast, kAnswer, mamori::within(1_ms)),
 #endif
     mamori::react(Fault::kSilent, kAnswer, mamori::within(1_ms)),
+#if defined(MAMORI_DEFECT_BRAKES_FIRST_BY_SS1) || defined(MAMORI_DEFECT_OTHER_REACTION)
     mamori::react(Fault::kLate, kAnswer, mamori::within(1_ms)),
+#else
+    mamori::react(Fault::kLate, Reaction::kSto, mamori::within(1_ms)),
+#endif
     mamori::react(Fault::kSelfTest, kAnswer, mamori::within(1_ms)),
 #ifdef MAMORI_DEFECT_STRANGER
     supervise(stranger, alive(), deadline(1_ms)),
@@ -169,13 +182,32 @@ constexpr auto kSystem = mamori::safety::system(
     supervise(reader, alive(), deadline(0_ms), raises(Fault::kSilent)),
 #elif defined(MAMORI_DEFECT_RAISED)
     supervise(reader, alive(), deadline(1_ms), raises(Fault::kUndeclared)),
-#else
+#elif !defined(MAMORI_DEFECT_SOURCE_UNSUPERVISED)
     supervise(reader, alive(), deadline(1_ms), raises(Fault::kSilent)),
 #endif
 #ifdef MAMORI_DEFECT_NOTHING_PROVEN
     supervise(decider, alive(), deadline(1_ms), raises(Fault::kSilent)),
 #else
     supervise(decider, alive(), deadline(1_ms)),
+#endif
+#if defined(MAMORI_DEFECT_NO_STANDSTILL)
+    confirmed_by(reader.seen, StopConfirmation::kClosedBrakes, StopConfirmation::kTorqueOff),
+#elif defined(MAMORI_DEFECT_NO_CLOSED_BRAKES)
+    confirmed_by(reader.seen, StopConfirmation::kStandstill, StopConfirmation::kTorqueOff),
+#elif defined(MAMORI_DEFECT_NO_TORQUE_OFF)
+    confirmed_by(reader.seen, StopConfirmation::kStandstill, StopConfirmation::kClosedBrakes),
+#elif defined(MAMORI_DEFECT_SOURCE_STRANGER)
+    confirmed_by(stranger.seen, StopConfirmation::kStandstill, StopConfirmation::kClosedBrakes,
+                 StopConfirmation::kTorqueOff),
+#else
+    confirmed_by(reader.seen, StopConfirmation::kStandstill, StopConfirmation::kClosedBrakes,
+                 StopConfirmation::kTorqueOff),
+#endif
+#ifdef MAMORI_DEFECT_SOURCE_TWICE
+    confirmed_by(reader.seen, StopConfirmation::kTorqueOff),
+#endif
+#ifdef MAMORI_DEFECT_SOURCE_OF_NOTHING
+    confirmed_by(reader.seen),
 #endif
 #ifdef MAMORI_DEFECT_CONFIRM_UNDECLARED
     confirm(Fault::kUndeclared, {2U}),

@@ -22,8 +22,10 @@ using mamori::Duration;
 using mamori::Instant;
 using mamori::Status;
 using mamori::safety::alive;
+using mamori::safety::confirmed_by;
 using mamori::safety::deadline;
 using mamori::safety::raises;
+using mamori::safety::StopConfirmation;
 using mamori::safety::supervise;
 namespace virtual_time = mamori::ports::virtual_time;
 
@@ -72,6 +74,8 @@ constexpr auto kSystem = mamori::safety::system(
               raises(safe_arm::ArmFault::kControllerSilent)),
     supervise(channel, alive(), deadline(safe_arm::kControllerMax)),
     supervise(gate, alive(), deadline(safe_arm::kControllerMax)),
+    confirmed_by(monitor.state, StopConfirmation::kStandstill),
+    confirmed_by(reader.reading, StopConfirmation::kClosedBrakes, StopConfirmation::kTorqueOff),
     mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),
     mamori::window("control", 300_us, 400_us, mamori::partition("control"), mamori::budget(350_us),
                    mamori::run(controller)),

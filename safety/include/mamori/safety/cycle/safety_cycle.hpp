@@ -5,7 +5,7 @@
 /// A machine derives its supervisor and adds only its inputs and outputs.
 ///
 /// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009
-/// @satisfies SWR-CYC-010, SWR-CYC-030, SWR-CYC-031
+/// @satisfies SWR-CYC-010, SWR-CYC-013, SWR-CYC-030, SWR-CYC-031
 /// Design:   docs/design/safety_cycle.md#order
 #ifndef MAMORI_SAFETY_SAFETY_CYCLE_HPP
 #define MAMORI_SAFETY_SAFETY_CYCLE_HPP
@@ -40,7 +40,8 @@ struct ComponentExpiry {
     ExpiryCause cause{ExpiryCause::kNone};
 };
 
-/// What the machine reports in one cycle. The defaults permit nothing.
+/// What the machine reports in one cycle. The defaults permit nothing. The table names the source of each
+/// confirmation of a stop with confirmed_by(...).
 struct CycleInputs {
     bool is_standing{false};                        ///< as measured
     bool are_brakes_closed{false};                  ///< contacts of all brakes
@@ -105,6 +106,8 @@ class SafetyCycle : public Component, public CycleComponent {
     // Each virtual function here is inline, so that an application with RTTI can derive from this class.
     Status apply_table() noexcept;
     void decide(Instant now) noexcept;
+    void drop_unproven(CycleInputs& machine) const noexcept;
+    bool is_proven(StopConfirmation confirmation) const noexcept;
     SelfTestStatus test(Instant now) noexcept;
     SelfTestStatus check_assumptions(Instant now) noexcept;
     void report_faults(SelfTestStatus self_test, Instant now) noexcept;

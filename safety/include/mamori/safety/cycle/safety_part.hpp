@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Parts of a description that only mamori::safety::system(...) has: supervision of components, confirmation
-/// of faults, bounds of stops, brakes and watchdog.
+/// of faults and stops, bounds of stops, brakes and watchdog.
 ///
-/// @satisfies SWR-CYC-001      Design: docs/design/safety_cycle.md#the-table
+/// @satisfies SWR-CYC-001, SWR-CYC-012      Design: docs/design/safety_cycle.md#the-table
 #ifndef MAMORI_SAFETY_SAFETY_PART_HPP
 #define MAMORI_SAFETY_SAFETY_PART_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
 #include "mamori/kernel/component/component.hpp"
+#include "mamori/kernel/dataflow/data_port.hpp"
 #include "mamori/kernel/system/system_extension.hpp"
 #include "mamori/safety/reaction/brake_sequence.hpp"
 #include "mamori/safety/reaction/fault_register.hpp"
@@ -38,6 +40,19 @@ struct ConfirmRow {
     FaultIndex fault{kNoFault};
     Confirmation confirmation{};
     Healing healing{};
+};
+/// What shows that a stop has taken effect.
+enum class StopConfirmation : std::uint8_t {
+    kStandstill,    ///< CycleInputs::is_standing
+    kClosedBrakes,  ///< CycleInputs::are_brakes_closed
+    kTorqueOff,     ///< CycleInputs::has_torque is false
+};
+/// Number of the enumerators above.
+inline constexpr std::size_t kStopConfirmationCount = 3U;
+/// An output that delivers confirmations.
+struct StopSourceRow {
+    const OutPortBase* port{nullptr};
+    std::array<bool, kStopConfirmationCount> confirms{};  ///< by the number of the confirmation
 };
 /// Settings of the safety cycle that a table states once.
 struct CycleRow {
@@ -89,6 +104,7 @@ constexpr Raises<Fault> raises(Fault fault) noexcept {
 /// Kinds of parts.
 struct SuperviseTag {};
 struct ConfirmTag {};
+struct StopSourceTag {};
 struct CycleTag {};
 
 /// Made by supervise().
@@ -122,6 +138,26 @@ struct ConfirmPart {
 template <typename Fault>
 constexpr ConfirmPart<Fault> confirm(Fault fault, Confirmation confirmation, Healing healing = {}) noexcept {
     return {{detail::to_fault(fault), confirmation, healing}};
+}
+
+/// Made by confirmed_by().
+struct StopSourcePart {
+    using Types = extension::ExtensionTypes<StopSourceTag>;
+    StopSourceRow row{};
+};
+/// The source of one or more confirmations of stops. A confirmation counts only while the component of the
+/// output is neither late nor expired.
+/// @param[in] source        output of a supervised component that runs before the cycle, connected to it;
+/// must
+///                          outlive the table.
+/// @param[in] confirmations enumerators of StopConfirmation; each has one source.
+template <typename... Confirmations>
+constexpr StopSourcePart confirmed_by(const OutPortBase& source, Confirmations... confirmations) noexcept {
+    static_assert(sizeof...(Confirmations) > 0U && (std::is_same_v<Confirmations, StopConfirmation> && ...),
+                  "confirmed_by(...) names an output and what it confirms");
+    StopSourcePart part{{&source}};
+    ((part.row.confirms[static_cast<std::size_t>(confirmations)] = true), ...);
+    return part;
 }
 
 /// Made by tolerated_lateness().

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// MAMORI_SAFETY_CHECK: rejects a constexpr table of mamori::safety::system() that violates a rule of the
-/// kernel (table_rules.hpp) or one of the rules below. The message names the faulty element.
+/// kernel (table_rules.hpp) or of the safety layer. The message names the faulty element.
 ///
 /// @satisfies SWR-CYC-002, SWR-CYC-011      Design: docs/design/safety_cycle.md#the-table
 #ifndef MAMORI_SAFETY_SAFETY_RULES_HPP
@@ -13,44 +13,11 @@
 #include <utility>
 
 #include "mamori/kernel/system/system_extension.hpp"
+#include "mamori/safety/cycle/safety_finding.hpp"
+#include "mamori/safety/cycle/stop_source_rules.hpp"
 #include "mamori/safety/cycle/system.hpp"
 
 namespace mamori::safety {
-
-/// What is wrong with a table; the row counts what the rule names, in the order of the description.
-enum class SafetyRule : std::uint8_t {
-    kNone,
-    kFaultsNumbered,          ///< fault
-    kReactionKnown,           ///< reaction
-    kSupervisedInTable,       ///< supervise
-    kSupervisedOnce,          ///< supervise
-    kAliveInRange,            ///< supervise
-    kDeadlineInRange,         ///< supervise
-    kRaisedFaultDeclared,     ///< supervise
-    kSomethingProven,         ///< supervise
-    kConfirmedFaultDeclared,  ///< confirm
-    kConfirmedOnce,           ///< confirm
-    kConfirmationInRange,     ///< confirm
-    kCycleOnce,               ///< cycle
-    kStopBoundsInRange,       ///< cycle
-    kBrakesHaveTime,          ///< cycle
-    kWatchdogInRange,         ///< cycle
-    kTorqueFeedbackInRange,   ///< cycle
-    kLatenessInRange,         ///< cycle
-    kCycleFaultDeclared,      ///< cycle
-    kCycleComponentOnce,      ///< cycle
-    kWatchdogFitsPeriod,      ///< cycle
-    kSupervisedOnCore,        ///< supervise
-    kBrakesFirstDeclared,     ///< cycle
-    kBrakesFirstHasContacts,  ///< cycle
-    kBrakesFirstBySto,        ///< cycle
-};
-
-/// The first violated rule; kNone when there is none.
-struct SafetyFinding {
-    SafetyRule rule{SafetyRule::kNone};
-    std::size_t row{0U};
-};
 
 namespace detail {
 
@@ -178,7 +145,8 @@ constexpr SafetyFinding check_safety(const Table& table) noexcept {
     SafetyFinding finding = check_faults(table);
     finding = finding.rule == SafetyRule::kNone ? check_supervision(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_confirmations(table) : finding;
-    return finding.rule == SafetyRule::kNone ? check_cycle(table) : finding;
+    finding = finding.rule == SafetyRule::kNone ? check_cycle(table) : finding;
+    return finding.rule == SafetyRule::kNone ? check_stop_sources(table) : finding;
 }
 
 }  // namespace detail
@@ -220,7 +188,9 @@ constexpr SafetyFinding check_cycle_component() noexcept {
     if (kCount != 1U) {
         return {SafetyRule::kCycleComponentOnce, kCount};
     }
-    return check_cycle_window(kTable, kTable.component_rows[find_cycle<kTable>(Indices{})].window);
+    constexpr std::size_t kCycle = find_cycle<kTable>(Indices{});
+    const SafetyFinding finding = check_cycle_window(kTable, kTable.component_rows[kCycle].window);
+    return finding.rule == SafetyRule::kNone ? check_sources_of_cycle(kTable, kCycle) : finding;
 }
 template <const auto& kTable>
 constexpr SafetyFinding check_safety_of() noexcept {
@@ -233,6 +203,9 @@ constexpr SafetyFinding check_safety_of() noexcept {
 /// A row as a compiler message shows it, 0 is the first of its kind.
 template <std::size_t kRow>
 struct TableRow {};
+/// What lacks its source, as a compiler message shows it.
+template <StopConfirmation kConfirmation>
+struct Unconfirmed {};
 
 /// Does not compile for a violated rule; the compiler prints it with the faulty component, fault or row.
 template <SafetyRule kRule, typename Faulty>
@@ -284,6 +257,21 @@ struct SafetyTableIsSound : std::true_type {
                   "brakes_first<...>() names a fault whose reaction is STO in no mode");
     static_assert(kRule != SafetyRule::kBrakesFirstHasContacts,
                   "brakes_first<...>() needs brakes with contacts: torque ends when they report closed");
+    static_assert(
+        kRule != SafetyRule::kStopConfirmed,
+        "a reaction stops the machine, and nothing confirms the stop; name the output that delivers "
+        "the confirmation with confirmed_by(...)");
+    static_assert(kRule != SafetyRule::kConfirmedByOnce,
+                  "two confirmed_by(...) deliver one confirmation; keep one");
+    static_assert(kRule != SafetyRule::kSourceInTable,
+                  "confirmed_by(...) names an output of a component that no window of the table runs");
+    static_assert(kRule != SafetyRule::kSourceSupervised,
+                  "the component that confirms a stop has no supervise(...); add it");
+    static_assert(
+        kRule != SafetyRule::kSourceConnected,
+        "the output that confirms a stop is connected to the safety cycle in each mode of the cycle");
+    static_assert(kRule != SafetyRule::kSourceBeforeCycle,
+                  "the component that confirms a stop runs before the safety cycle, at least as often");
 };
 
 namespace detail {
@@ -300,6 +288,10 @@ constexpr auto show_faulty() noexcept {
         constexpr std::size_t kIndex =
             find_component(kTable.components, kTable.supervised[kRow].watch.component);
         return Shown<extension::ComponentAt<kTable, kIndex>>{};
+    } else if constexpr (kRule >= SafetyRule::kSourceSupervised && kRule <= SafetyRule::kSourceBeforeCycle) {
+        return Shown<extension::ComponentAt<kTable, find_owner(kTable, kTable.stop_sources[kRow].port)>>{};
+    } else if constexpr (kRule == SafetyRule::kStopConfirmed) {
+        return Shown<Unconfirmed<static_cast<StopConfirmation>(kRow)>>{};
     } else if constexpr (kRule == SafetyRule::kConfirmedOnce || kRule == SafetyRule::kConfirmationInRange) {
         return Shown<extension::FaultAt<kTable, kTable.confirmations[kRow].fault>>{};
     } else if constexpr (kRule == SafetyRule::kFaultsNumbered) {

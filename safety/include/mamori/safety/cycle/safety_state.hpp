@@ -2,7 +2,7 @@
 /// @file
 /// What the safety cycle of a table remembers: supervision, faults, state, brakes and watchdog.
 ///
-/// @satisfies SWR-CYC-003      Design: docs/design/safety_cycle.md#memory
+/// @satisfies SWR-CYC-003, SWR-CYC-013      Design: docs/design/safety_cycle.md#memory
 #ifndef MAMORI_SAFETY_SAFETY_STATE_HPP
 #define MAMORI_SAFETY_SAFETY_STATE_HPP
 
@@ -17,6 +17,24 @@
 #include "mamori/safety/redundancy/complement_stored.hpp"
 
 namespace mamori::safety {
+
+namespace detail {
+
+/// Components that deliver the confirmations, by the number of the confirmation; kNoIndex: none.
+template <typename Table>
+constexpr std::array<std::size_t, kStopConfirmationCount> find_stop_sources(const Table& table) noexcept {
+    std::array<std::size_t, kStopConfirmationCount> sources{kNoIndex, kNoIndex, kNoIndex};
+    for (std::size_t c = 0U; c < kStopConfirmationCount; ++c) {
+        for (std::size_t i = 0U; i < table.stop_sources.size(); ++i) {
+            if (table.stop_sources[i].confirms[c]) {
+                sources[c] = find_owner(table, table.stop_sources[i].port);
+            }
+        }
+    }
+    return sources;
+}
+
+}  // namespace detail
 
 /// Memory for the table `kTable` of safety::system(), in static storage.
 template <const auto& kTable>
@@ -49,6 +67,7 @@ class SafetyState final {
           supervised_(kTable.supervised),
           confirmations_(kTable.confirmations),
           reactions_(kTable.reactions),
+          stop_sources_(detail::find_stop_sources(kTable)),
           faults_(storage.faults),
           machine_(kTable.cycle.stops),
           brakes_(kTable.cycle.brakes),
@@ -74,6 +93,7 @@ class SafetyState final {
     Span<const SuperviseRow> supervised_;
     Span<const ConfirmRow> confirmations_;
     Span<const ReactionRow> reactions_;
+    std::array<std::size_t, kStopConfirmationCount> stop_sources_;
     /// With its complement: it decides when the watchdog has to switch off what the software cannot.
     ComplementStored<Duration> torque_despite_sto_for_{Duration{0}};
     FaultRegister faults_;

@@ -12,6 +12,7 @@
 ///         mamori::safety::supervise(monitor, mamori::safety::alive(), mamori::safety::deadline(150_us),
 ///                                   mamori::safety::raises(Fault::kMonitorSilent)),
 ///         mamori::safety::supervise(supervisor, mamori::safety::alive(), mamori::safety::deadline(150_us)),
+///         mamori::safety::confirmed_by(monitor.state, StopConfirmation::kStandstill, ...),
 ///         mamori::safety::cycle(...));
 ///     MAMORI_SAFETY_CHECK(kSystem);
 ///
@@ -34,6 +35,7 @@ struct SafetySystem : DescribedSystem<PartTypes> {
     static constexpr std::size_t kCycleCount = extension::kPartCount<CycleTag, PartTypes>;
     std::array<SuperviseRow, extension::kPartCount<SuperviseTag, PartTypes>> supervised{};
     std::array<ConfirmRow, extension::kPartCount<ConfirmTag, PartTypes>> confirmations{};
+    std::array<StopSourceRow, extension::kPartCount<StopSourceTag, PartTypes>> stop_sources{};
     CycleRow cycle{};
 };
 
@@ -54,6 +56,15 @@ constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
         next += row.fault != kNoFault ? 1U : 0U;
     }
     builder.table.confirmations[next] = part.row;
+}
+template <typename Types>
+constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
+                        const StopSourcePart& part) noexcept {
+    std::size_t next = 0U;
+    for (const StopSourceRow& row : builder.table.stop_sources) {
+        next += row.port != nullptr ? 1U : 0U;
+    }
+    builder.table.stop_sources[next] = part.row;
 }
 template <typename Types, typename... Faults>
 constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
