@@ -44,6 +44,40 @@ class ExecutionSupervisorTest : public ::testing::Test {
 ExecutionStorage<1U> g_storage{};
 ExecutionSupervisor g_supervisor{g_storage, 10_us};
 
+TEST_F(ExecutionSupervisorTest, AViolationThatIsFoundElsewhereExpiresAComponentWithItsCause) {
+    verifies("SWR-CYC-014", Technique::kFaultInjection, Polarity::kViolation);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    ASSERT_EQ(sut_.watch(kMonitor, kLocalLimits), Status::kOk);
+    const auto run_all = [this] {
+        run(kControl);
+        run(kMonitor);
+        return end_cycle();
+    };
+    ASSERT_EQ(run_all(), GlobalStatus::kOk);
+
+    sut_.expire(kMonitor, ExpiryCause::kOutOfOrder, now_);
+    EXPECT_EQ(sut_.get_global_status(), GlobalStatus::kOk) << "of local scope";
+    sut_.expire(kControl, ExpiryCause::kOutOfOrder, now_);
+    EXPECT_EQ(sut_.get_global_status(), GlobalStatus::kExpired);
+    EXPECT_EQ(sut_.get_cause(kControl), ExpiryCause::kOutOfOrder);
+    EXPECT_TRUE(sut_.has_just_expired(kControl));
+    EXPECT_EQ(sut_.get_first_expired(), kControl);
+    EXPECT_EQ(run_all(), GlobalStatus::kExpired) << "until it is acknowledged";
+    EXPECT_FALSE(sut_.has_just_expired(kControl));
+    ASSERT_EQ(sut_.acknowledge(kControl), Status::kOk);
+    EXPECT_EQ(run_all(), GlobalStatus::kOk);
+}
+
+TEST_F(ExecutionSupervisorTest, TheCauseThatWasFoundFirstIsKept) {
+    verifies("SWR-CYC-014", Technique::kEquivalenceClasses);
+    ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);
+    run(kControl, 101_us);
+    ASSERT_EQ(end_cycle(), GlobalStatus::kExpired);
+
+    sut_.expire(kControl, ExpiryCause::kOutOfOrder, now_);
+    EXPECT_EQ(sut_.get_cause(kControl), ExpiryCause::kDeadline);
+}
+
 TEST_F(ExecutionSupervisorTest, HealthyComponentsGiveOkLocallyAndGlobally) {
     verifies("SWR-SUP-007");
     ASSERT_EQ(sut_.watch(kControl, kLimits), Status::kOk);

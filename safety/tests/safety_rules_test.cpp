@@ -200,6 +200,54 @@ TEST(SafetyRulesTest, TheCheckOfAConstantTableAnswersWhileRunningToo) {
     static_cast<void>(detail::show_faulty<kSound, SafetyRule::kStopConfirmed, 0U>());
 }
 
+// ---- Checkpoints ----
+
+enum class Entity { kFirst, kSecond, kUnknown };
+enum class Point { kFirst, kSecond };
+constexpr std::array kEntities{supervise(Entity::kFirst), supervise(Entity::kSecond)};
+constexpr std::array kPoints{checkpoint(Point::kFirst, Entity::kFirst, CheckpointRole::kInitialAndFinal),
+                             checkpoint(Point::kSecond, Entity::kSecond, CheckpointRole::kInitialAndFinal)};
+constexpr SupervisionTable kTable{kEntities, kPoints, {}, {}, {}};
+constexpr SupervisionTable kOtherTable{kEntities, kPoints, {}, {}, {}};
+SupervisionStorage<kTable> g_storage;
+ExpiryStorage g_expiry;
+ExpiryMemory g_memory{g_expiry};
+CheckpointSupervisor g_supervisor{g_storage, g_memory};
+CheckpointSupervisor g_other_supervisor{g_storage, g_memory};
+
+TEST(CheckpointRulesTest, EachEntityOfOneTableIsThatOfOneComponent) {
+    verifies("SWR-CYC-015", Technique::kEquivalenceClasses);
+    EXPECT_EQ(check([](auto& table) {
+                  table.supervised[0U].checkpoints = checkpoints<kTable>(g_supervisor, Entity::kSecond);
+                  table.supervised[2U].checkpoints = checkpoints<kTable>(g_supervisor, Entity::kFirst);
+              }).rule,
+              SafetyRule::kNone);
+}
+
+TEST(CheckpointRulesTest, AnEntityThatIsUnknownMissingOrOfTwoComponentsIsRejected) {
+    verifies("SWR-CYC-015", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto check_pair = [](Checkpoints first, Checkpoints second) {
+        return check([&](auto& table) {
+            table.supervised[0U].checkpoints = first;
+            table.supervised[2U].checkpoints = second;
+        });
+    };
+    const Checkpoints first = checkpoints<kTable>(g_supervisor, Entity::kFirst);
+    const Checkpoints second = checkpoints<kTable>(g_supervisor, Entity::kSecond);
+    EXPECT_EQ(check_pair(first, second).rule, SafetyRule::kNone);
+    EXPECT_EQ(check_pair(first, checkpoints<kTable>(g_supervisor, Entity::kUnknown)).rule,
+              SafetyRule::kEntityKnown);
+    EXPECT_EQ(check_pair(second, second).rule, SafetyRule::kEntityOfOneComponent);
+    EXPECT_EQ(check_pair(second, second).row, 2U);
+    EXPECT_EQ(check_pair({}, second).rule, SafetyRule::kEntityOfAComponent);
+    EXPECT_EQ(check_pair({}, second).row, 0U);
+    EXPECT_EQ(check_pair(first, {}).row, 1U);
+    EXPECT_EQ(check_pair(first, checkpoints<kOtherTable>(g_supervisor, Entity::kSecond)).rule,
+              SafetyRule::kCheckpointsOfOneTable);
+    EXPECT_EQ(check_pair(first, checkpoints<kTable>(g_other_supervisor, Entity::kSecond)).rule,
+              SafetyRule::kCheckpointsOfOneTable);
+}
+
 // ---- Sources of confirmations ----
 
 TEST(StopSourceRulesTest, EachKindOfStopNeedsItsConfirmations) {

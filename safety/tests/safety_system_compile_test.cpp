@@ -40,6 +40,13 @@ TEST_P(SafetySystemCompileTest, IsRejectedWithTheFaultyElement) {
     expect_rejected(GetParam());
 }
 
+class CheckpointCompileTest : public ::testing::TestWithParam<Defect> {};
+
+TEST_P(CheckpointCompileTest, IsRejectedWithTheFaultyElement) {
+    verifies("SWR-CYC-015", Technique::kEquivalenceClasses, Polarity::kViolation);
+    expect_rejected(GetParam());
+}
+
 class StopSourceCompileTest : public ::testing::TestWithParam<Defect> {};
 
 TEST_P(StopSourceCompileTest, IsRejectedWithTheFaultyElement) {
@@ -98,6 +105,13 @@ constexpr Defect kDefects[] = {
     {"BRAKES_FIRST_BY_SS1", "kBrakesFirstBySto", "whose reaction is STO in no mode"},
     {"BRAKES_FIRST_WITHOUT_CONTACTS", "kBrakesFirstHasContacts", "needs brakes with contacts"},
 };
+constexpr Defect kCheckpointDefects[] = {
+    {"CHECKPOINT_LIST", "SupervisionFault::kEdgeLeavesFinal, 0", "edge out of a final checkpoint"},
+    {"CHECKPOINT_ENTITY", "Reader", "names an entity that its table does not have"},
+    {"CHECKPOINT_TWICE", "Decider", "two components report the checkpoints of one entity"},
+    {"CHECKPOINT_SUPERVISOR", "Decider", "checkpoints<...>(...) of two supervisors or tables"},
+    {"CHECKPOINT_FORGOTTEN", "TableRow<0>", "has no component"},
+};
 constexpr Defect kSourceDefects[] = {
     {"NO_STANDSTILL", "Unconfirmed<mamori::safety::StopConfirmation::kStandstill>",
      "nothing confirms the stop"},
@@ -113,6 +127,8 @@ constexpr Defect kSourceDefects[] = {
     {"SOURCE_OF_NOTHING", "confirmed_by", "names an output and what it confirms"},
 };
 INSTANTIATE_TEST_SUITE_P(EachDefect, SafetySystemCompileTest, ::testing::ValuesIn(kDefects),
+                         [](const auto& one) { return std::string{one.param.macro}; });
+INSTANTIATE_TEST_SUITE_P(EachDefect, CheckpointCompileTest, ::testing::ValuesIn(kCheckpointDefects),
                          [](const auto& one) { return std::string{one.param.macro}; });
 INSTANTIATE_TEST_SUITE_P(EachDefect, StopSourceCompileTest, ::testing::ValuesIn(kSourceDefects),
                          [](const auto& one) { return std::string{one.param.macro}; });

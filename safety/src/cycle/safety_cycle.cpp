@@ -5,6 +5,16 @@
 #include "mamori/safety/reaction/reaction_table.hpp"
 
 namespace mamori::safety {
+namespace {
+
+ExpiryCause to_cause(CheckpointViolation violation) noexcept {
+    const bool is_time = violation == CheckpointViolation::kTooShort ||
+                         violation == CheckpointViolation::kTooLong ||
+                         violation == CheckpointViolation::kMissingFinish;
+    return is_time ? ExpiryCause::kDeadline : ExpiryCause::kOutOfOrder;
+}
+
+}  // namespace
 
 /// A degraded mode shows in no output: it begins with the state.
 bool SafetyCycle::has_begun(const ReactionDemand& demand, const StopOutputs& applied) const noexcept {
@@ -28,6 +38,10 @@ Status SafetyCycle::apply_table() noexcept {
         }
     }
     for (const SuperviseRow& row : state_.supervised_) {
+        const Checkpoints& points = row.checkpoints;
+        if (points.supervisor != nullptr && &points.supervisor->get_table() != points.table) {
+            return Status::kBadParameter;
+        }
         Status result =
             state_.supervision_.watch(state_.supervision_.find(*row.watch.component), row.watch.limits);
         if (result == Status::kOk) {
@@ -60,7 +74,9 @@ void SafetyCycle::decide(Instant now) noexcept {
         followed_mode_ = machine.mode;
         state_.supervision_.follow_mode(machine.mode);
     }
-    const GlobalStatus health = state_.supervision_.step(now);
+    static_cast<void>(state_.supervision_.step(now));
+    step_checkpoints(now);
+    const GlobalStatus health = state_.supervision_.get_global_status();
     drop_unproven(machine);
     record_expiries(now);
     const SafeState before = state_.machine_.get_state();
@@ -103,6 +119,25 @@ void SafetyCycle::decide(Instant now) noexcept {
     was_torque_wanted_ = outputs.torque_enable;
     stepped_at_ = now;
     has_stepped_ = true;
+}
+
+/// Once in each cycle, after the status of the components is formed.
+void SafetyCycle::step_checkpoints(Instant now) noexcept {
+    if (state_.checkpoints_ == nullptr) {
+        return;
+    }
+    // The status of the whole is that of the components, which have their own scopes.
+    static_cast<void>(state_.checkpoints_->step(now));
+    for (const SuperviseRow& row : state_.supervised_) {
+        if (row.checkpoints.supervisor == nullptr) {
+            continue;
+        }
+        const CheckpointViolation violation = state_.checkpoints_->get_violation(row.checkpoints.entity);
+        if (violation != CheckpointViolation::kNone) {
+            state_.supervision_.expire(state_.supervision_.find(*row.watch.component), to_cause(violation),
+                                       now);
+        }
+    }
 }
 
 /// The value of a source that is late or expired may be old: it confirms nothing.
@@ -191,6 +226,10 @@ bool SafetyCycle::is_expired(const SuperviseRow& row) noexcept {
     const bool result = state_.supervision_.get_local_status(index) == LocalStatus::kExpired;
     if (result && state_.faults_.is_latched(row.fault)) {
         static_cast<void>(state_.supervision_.acknowledge(index));
+        if (row.checkpoints.supervisor != nullptr) {
+            // Refused unless its checkpoints are the cause, or once they are stopped for good.
+            static_cast<void>(state_.checkpoints_->acknowledge(row.checkpoints.entity));
+        }
     }
     return result;
 }

@@ -180,6 +180,21 @@ GlobalStatus ExecutionSupervisor::step(Instant now) noexcept {
     return worst;
 }
 
+void ExecutionSupervisor::expire(std::size_t component, ExpiryCause cause, Instant now) noexcept {
+    ComponentSlot& slot = components_[component];
+    if (slot.status == LocalStatus::kExpired) {
+        return;
+    }
+    slot.status = LocalStatus::kExpired;
+    slot.cause = cause;
+    slot.has_just_expired = true;
+    slot.is_conspicuous = true;
+    slot.expired_at = now;
+    if (slot.is_global) {
+        global_status_ = GlobalStatus::kExpired;
+    }
+}
+
 LifecycleState ExecutionSupervisor::get_state(std::size_t component) const noexcept {
     if (component >= table_components_.size()) {
         return LifecycleState::kCreated;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled by safety_system_compile_test.cpp with one defect at a time; without a defect it compiles.
+#include <array>
+
 #include "mamori/safety/cycle/safety_rules.hpp"
 
 namespace {
@@ -23,6 +25,35 @@ Reader reader{"reader"};
 Reader stranger{"stranger"};
 Decider decider;
 Decider second_decider;
+
+enum class Entity { kReader, kOther, kUnknown };
+enum class Point { kBegin, kEnd, kOther };
+constexpr std::array kEntities{supervise(Entity::kReader), supervise(Entity::kOther)};
+constexpr std::array kPoints{checkpoint(Point::kBegin, Entity::kReader, CheckpointRole::kInitial),
+                             checkpoint(Point::kEnd, Entity::kReader, CheckpointRole::kFinal),
+                             checkpoint(Point::kOther, Entity::kOther, CheckpointRole::kInitialAndFinal)};
+constexpr std::array kEdges{edge(Point::kBegin, Point::kEnd)};
+constexpr std::array kNoEdges{edge(Point::kEnd, Point::kBegin)};
+constexpr SupervisionTable kTable{kEntities, kPoints, {}, {}, kEdges};
+constexpr SupervisionTable kUnsound{kEntities, kPoints, {}, {}, kNoEdges};
+SupervisionStorage<kTable> storage;
+ExpiryStorage expiry;
+ExpiryMemory memory{expiry};
+CheckpointSupervisor supervisor{storage, memory};
+CheckpointSupervisor second_supervisor{storage, memory};
+#if defined(MAMORI_DEFECT_CHECKPOINT_LIST)
+constexpr auto kReaderPoints = checkpoints<kUnsound>(supervisor, Entity::kReader);
+#elif defined(MAMORI_DEFECT_CHECKPOINT_ENTITY)
+constexpr auto kReaderPoints = checkpoints<kTable>(supervisor, Entity::kUnknown);
+#elif defined(MAMORI_DEFECT_CHECKPOINT_TWICE)
+constexpr auto kReaderPoints = checkpoints<kTable>(supervisor, Entity::kOther);
+#elif defined(MAMORI_DEFECT_CHECKPOINT_SUPERVISOR)
+constexpr auto kReaderPoints = checkpoints<kTable>(second_supervisor, Entity::kReader);
+#elif defined(MAMORI_DEFECT_CHECKPOINT_FORGOTTEN)
+constexpr Checkpoints kReaderPoints{};
+#else
+constexpr auto kReaderPoints = checkpoints<kTable>(supervisor, Entity::kReader);
+#endif
 
 enum class Fault { kFast, kSilent, kLate, kSelfTest, kUndeclared };
 enum class Stop { kGently = 1, kAtOnce = 5 };
@@ -183,12 +214,14 @@ constexpr auto kSystem = mamori::safety::system(
 #elif defined(MAMORI_DEFECT_RAISED)
     supervise(reader, alive(), deadline(1_ms), raises(Fault::kUndeclared)),
 #elif !defined(MAMORI_DEFECT_SOURCE_UNSUPERVISED)
-    supervise(reader, alive(), deadline(1_ms), raises(Fault::kSilent)),
+    supervise(reader, alive(), deadline(1_ms), kReaderPoints, raises(Fault::kSilent)),
 #endif
 #ifdef MAMORI_DEFECT_NOTHING_PROVEN
     supervise(decider, alive(), deadline(1_ms), raises(Fault::kSilent)),
-#else
+#elif defined(MAMORI_DEFECT_SOURCE_UNSUPERVISED)
     supervise(decider, alive(), deadline(1_ms)),
+#else
+    supervise(decider, alive(), deadline(1_ms), checkpoints<kTable>(supervisor, Entity::kOther)),
 #endif
 #if defined(MAMORI_DEFECT_NO_STANDSTILL)
     confirmed_by(reader.seen, StopConfirmation::kClosedBrakes, StopConfirmation::kTorqueOff),

@@ -12,6 +12,8 @@
 #include "mamori/safety/supervision/challenge_gate.hpp"
 #include "mamori/safety/supervision/checkpoint_supervisor.hpp"
 
+#include "mamori/safety/cycle/safety_part.hpp"
+
 namespace supervised {
 
 using namespace mamori::literals;
@@ -78,6 +80,14 @@ bool serve(mamori::safety::ChallengeGate& gate, mamori::Instant now) {
 
 namespace supervised {
 
+constexpr mamori::safety::Checkpoints kControlPoints =
+    mamori::safety::checkpoints<kTable>(supervisor, Entity::kControl);
+// In the table: supervise(control, alive(), deadline(400_us), kControlPoints, raises(Fault::kControl))
+
+}  // namespace supervised
+
+namespace supervised {
+
 /// @return the entity that expired before this start; kNoEntity when none did, or nobody knows.
 mamori::safety::EntityIndex take_last_words() {
     const mamori::safety::ExpiryNote note = expiry_memory.read();
@@ -122,6 +132,13 @@ TEST(SupervisionPageTest, ExampleServesWhileItIsHealthyAndTellsWhoWasNot) {
     storage.get_log(Entity::kControl).report(Point::kCompute, begin);
     EXPECT_FALSE(serve(gate, begin + 900_us));
     EXPECT_EQ(take_last_words(), 0U);
+}
+
+TEST(SupervisionPageTest, TheCheckpointsOfAComponentAreAnEntityOfTheTable) {
+    verifies("SWR-CYC-014", Technique::kInterface);
+    EXPECT_EQ(kControlPoints.supervisor, &supervisor);
+    EXPECT_EQ(kControlPoints.table, &supervisor.get_table());
+    EXPECT_EQ(kControlPoints.entity, 0U);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 /// A machine derives its supervisor and adds only its inputs and outputs.
 ///
 /// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009
-/// @satisfies SWR-CYC-010, SWR-CYC-013, SWR-CYC-030, SWR-CYC-031
+/// @satisfies SWR-CYC-010, SWR-CYC-013, SWR-CYC-014, SWR-CYC-030, SWR-CYC-031
 /// Design:   docs/design/safety_cycle.md#order
 #ifndef MAMORI_SAFETY_SAFETY_CYCLE_HPP
 #define MAMORI_SAFETY_SAFETY_CYCLE_HPP
@@ -59,7 +59,8 @@ struct CycleInputs {
 class SafetyCycle : public Component, public CycleComponent {
   public:
     /// Confirmations and supervision of the table. @return kOk; kPreconditionNotMet (a second call while a
-    /// fault is latched or a component is watched).
+    /// fault is latched or a component is watched); kBadParameter (checkpoints<kTable>(...) names a
+    /// supervisor of another table).
     Status on_initialize() noexcept final { return apply_table(); }
     Status on_execute(ContextHandle context) noexcept final {
         decide(context.now);
@@ -106,6 +107,7 @@ class SafetyCycle : public Component, public CycleComponent {
     // Each virtual function here is inline, so that an application with RTTI can derive from this class.
     Status apply_table() noexcept;
     void decide(Instant now) noexcept;
+    void step_checkpoints(Instant now) noexcept;
     void drop_unproven(CycleInputs& machine) const noexcept;
     bool is_proven(StopConfirmation confirmation) const noexcept;
     SelfTestStatus test(Instant now) noexcept;

@@ -44,6 +44,10 @@ enum class SafetyRule : std::uint8_t {
     kSourceSupervised,        ///< confirmed_by
     kSourceConnected,         ///< confirmed_by
     kSourceBeforeCycle,       ///< confirmed_by
+    kCheckpointsOfOneTable,   ///< supervise
+    kEntityKnown,             ///< supervise
+    kEntityOfOneComponent,    ///< supervise
+    kEntityOfAComponent,      ///< entity
 };
 
 /// The first violated rule; kNone when there is none.

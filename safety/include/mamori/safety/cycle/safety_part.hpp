@@ -3,7 +3,7 @@
 /// Parts of a description that only mamori::safety::system(...) has: supervision of components, confirmation
 /// of faults and stops, bounds of stops, brakes and watchdog.
 ///
-/// @satisfies SWR-CYC-001, SWR-CYC-012      Design: docs/design/safety_cycle.md#the-table
+/// @satisfies SWR-CYC-001, SWR-CYC-012, SWR-CYC-014      Design: docs/design/safety_cycle.md#the-table
 #ifndef MAMORI_SAFETY_SAFETY_PART_HPP
 #define MAMORI_SAFETY_SAFETY_PART_HPP
 
@@ -18,6 +18,7 @@
 #include "mamori/safety/reaction/brake_sequence.hpp"
 #include "mamori/safety/reaction/fault_register.hpp"
 #include "mamori/safety/reaction/safe_state_machine.hpp"
+#include "mamori/safety/supervision/checkpoint_supervisor.hpp"
 #include "mamori/safety/supervision/execution_supervisor.hpp"
 #include "mamori/safety/supervision/watchdog_gate.hpp"
 
@@ -30,9 +31,16 @@ class CycleComponent {
     ~CycleComponent() = default;
 };
 
+/// Checkpoints of one component. Made by checkpoints().
+struct Checkpoints {
+    CheckpointSupervisor* supervisor{nullptr};  ///< nullptr: none
+    const SupervisionTable* table{nullptr};     ///< of the supervisor
+    EntityIndex entity{kNoEntity};
+};
 /// Supervision of one component.
 struct SuperviseRow {
     WatchRow watch{};
+    Checkpoints checkpoints{};
     FaultIndex fault{kNoFault};  ///< present while the component is expired; kNoFault: the watchdog expires
 };
 /// Confirmation and healing of one fault.
@@ -89,6 +97,16 @@ constexpr DeadlineLimits deadline(Duration longest, Duration shortest = {}) noex
     return {shortest, longest};
 }
 
+/// Checkpoints that a component reports (supervision_table.hpp). If they violate their table, the component
+/// expires. The safety cycle steps the supervisor.
+/// @tparam kTable         of the supervisor; one for all components of the system.
+/// @param[in] supervisor  static storage. @param[in] entity of the table, reported by this component only.
+template <const auto& kTable, typename Entity>
+constexpr Checkpoints checkpoints(CheckpointSupervisor& supervisor, Entity entity) noexcept {
+    static_assert(is_sound<kTable>());
+    return {&supervisor, &kTable, detail::to_row_number(entity)};
+}
+
 /// Made by raises().
 template <typename Fault>
 struct Raises {
@@ -115,16 +133,23 @@ struct SupervisePart {
 };
 /// Supervises a component of the table. Its failure prevents the service of the watchdog.
 /// @param[in] component run by a window; must outlive the table. @param[in] silence alive(...).
-/// @param[in] duration deadline(...).
-constexpr SupervisePart<> supervise(const Component& component, AliveLimits silence,
-                                    DeadlineLimits duration) noexcept {
-    return {{watch(component, {silence, duration, SupervisionScope::kGlobal}), kNoFault}};
+/// @param[in] duration deadline(...). @param[in] points checkpoints(...).
+constexpr SupervisePart<> supervise(const Component& component, AliveLimits silence, DeadlineLimits duration,
+                                    Checkpoints points = {}) noexcept {
+    return {{watch(component, {silence, duration, SupervisionScope::kGlobal}), points, kNoFault}};
 }
 /// The same for a component whose failure is a declared fault. @param[in] fault raises(...).
 template <typename Fault>
 constexpr SupervisePart<Fault> supervise(const Component& component, AliveLimits silence,
+                                         DeadlineLimits duration, Checkpoints points,
+                                         Raises<Fault> fault) noexcept {
+    return {{watch(component, {silence, duration, SupervisionScope::kLocal}), points,
+             detail::to_fault(fault.fault)}};
+}
+template <typename Fault>
+constexpr SupervisePart<Fault> supervise(const Component& component, AliveLimits silence,
                                          DeadlineLimits duration, Raises<Fault> fault) noexcept {
-    return {{watch(component, {silence, duration, SupervisionScope::kLocal}), detail::to_fault(fault.fault)}};
+    return supervise(component, silence, duration, Checkpoints{}, fault);
 }
 
 /// Made by confirm().

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "mamori/kernel/system/system_extension.hpp"
+#include "mamori/safety/cycle/checkpoint_rules.hpp"
 #include "mamori/safety/cycle/safety_finding.hpp"
 #include "mamori/safety/cycle/stop_source_rules.hpp"
 #include "mamori/safety/cycle/system.hpp"
@@ -144,6 +145,7 @@ template <typename Table>
 constexpr SafetyFinding check_safety(const Table& table) noexcept {
     SafetyFinding finding = check_faults(table);
     finding = finding.rule == SafetyRule::kNone ? check_supervision(table) : finding;
+    finding = finding.rule == SafetyRule::kNone ? check_checkpoints(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_confirmations(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_cycle(table) : finding;
     return finding.rule == SafetyRule::kNone ? check_stop_sources(table) : finding;
@@ -272,6 +274,15 @@ struct SafetyTableIsSound : std::true_type {
         "the output that confirms a stop is connected to the safety cycle in each mode of the cycle");
     static_assert(kRule != SafetyRule::kSourceBeforeCycle,
                   "the component that confirms a stop runs before the safety cycle, at least as often");
+    static_assert(kRule != SafetyRule::kCheckpointsOfOneTable,
+                  "checkpoints<...>(...) of two supervisors or tables; use one for all components");
+    static_assert(kRule != SafetyRule::kEntityKnown,
+                  "checkpoints<...>(...) names an entity that its table does not have");
+    static_assert(kRule != SafetyRule::kEntityOfOneComponent,
+                  "two components report the checkpoints of one entity; give each its own");
+    static_assert(
+        kRule != SafetyRule::kEntityOfAComponent,
+        "an entity of the table of checkpoints has no component; name it with checkpoints<...>(...)");
 };
 
 namespace detail {
@@ -284,7 +295,9 @@ struct Shown {
 template <const auto& kTable, SafetyRule kRule, std::size_t kRow>
 constexpr auto show_faulty() noexcept {
     if constexpr ((kRule >= SafetyRule::kSupervisedOnce && kRule <= SafetyRule::kRaisedFaultDeclared) ||
-                  kRule == SafetyRule::kSupervisedOnCore) {
+                  kRule == SafetyRule::kSupervisedOnCore ||
+                  (kRule >= SafetyRule::kCheckpointsOfOneTable &&
+                   kRule <= SafetyRule::kEntityOfOneComponent)) {
         constexpr std::size_t kIndex =
             find_component(kTable.components, kTable.supervised[kRow].watch.component);
         return Shown<extension::ComponentAt<kTable, kIndex>>{};

@@ -2,7 +2,7 @@
 /// @file
 /// What the safety cycle of a table remembers: supervision, faults, state, brakes and watchdog.
 ///
-/// @satisfies SWR-CYC-003, SWR-CYC-013      Design: docs/design/safety_cycle.md#memory
+/// @satisfies SWR-CYC-003, SWR-CYC-013, SWR-CYC-014      Design: docs/design/safety_cycle.md#memory
 #ifndef MAMORI_SAFETY_SAFETY_STATE_HPP
 #define MAMORI_SAFETY_SAFETY_STATE_HPP
 
@@ -32,6 +32,17 @@ constexpr std::array<std::size_t, kStopConfirmationCount> find_stop_sources(cons
         }
     }
     return sources;
+}
+
+/// The supervisor of all checkpoints; nullptr: none.
+template <typename Table>
+constexpr CheckpointSupervisor* find_checkpoints(const Table& table) noexcept {
+    for (std::size_t i = 0U; i < table.supervised.size(); ++i) {
+        if (table.supervised[i].checkpoints.supervisor != nullptr) {
+            return table.supervised[i].checkpoints.supervisor;
+        }
+    }
+    return nullptr;
 }
 
 }  // namespace detail
@@ -68,6 +79,7 @@ class SafetyState final {
           confirmations_(kTable.confirmations),
           reactions_(kTable.reactions),
           stop_sources_(detail::find_stop_sources(kTable)),
+          checkpoints_(detail::find_checkpoints(kTable)),
           faults_(storage.faults),
           machine_(kTable.cycle.stops),
           brakes_(kTable.cycle.brakes),
@@ -94,6 +106,7 @@ class SafetyState final {
     Span<const ConfirmRow> confirmations_;
     Span<const ReactionRow> reactions_;
     std::array<std::size_t, kStopConfirmationCount> stop_sources_;
+    CheckpointSupervisor* checkpoints_;
     /// With its complement: it decides when the watchdog has to switch off what the software cannot.
     ComplementStored<Duration> torque_despite_sto_for_{Duration{0}};
     FaultRegister faults_;

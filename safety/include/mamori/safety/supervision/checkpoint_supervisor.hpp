@@ -68,6 +68,8 @@ class CheckpointSupervisor final {
     /// @return kOk; kBadParameter (no such entity); kPreconditionNotMet (not expired, or all is stopped).
     Status acknowledge(EntityIndex entity) noexcept;
 
+    /// The table of the storage.
+    const SupervisionTable& get_table() const noexcept { return table_; }
     /// @return result of the last step(); kFailed before the first.
     SupervisionStatus get_status() const noexcept { return status_; }
     std::size_t get_mode() const noexcept { return mode_; }

@@ -4,7 +4,7 @@
 /// once per supervision cycle (alive, deadline, budget) and sums the judgements up to the status of the
 /// whole.
 ///
-/// @satisfies SWR-SUP-007, SWR-SUP-008, SWR-SUP-009, SWR-SUP-010, SWR-SUP-040
+/// @satisfies SWR-SUP-007, SWR-SUP-008, SWR-SUP-009, SWR-SUP-010, SWR-SUP-040, SWR-CYC-014
 /// Design:   docs/design/supervision.md#local-and-global-status
 /// Source:   IEC 61508-2:2010 Table A.10 (monitoring of program sequence)
 #ifndef MAMORI_SAFETY_EXECUTION_SUPERVISOR_HPP
@@ -48,10 +48,11 @@ enum class ExpiryCause : std::uint8_t {
     kDeadline,       ///< a run was shorter or longer than its limits
     kSilent,         ///< it does not run
     kInError,        ///< it does not run, because its state is Error
+    kOutOfOrder,     ///< its checkpoints came in a wrong order or number
 };
 /// Spelling of a cause in logs, indexed by its number.
-inline constexpr std::array<const char*, 5U> kExpiryCauseNames{"none", "budget_overrun", "deadline", "silent",
-                                                               "in_error"};
+inline constexpr std::array<const char*, 6U> kExpiryCauseNames{"none",   "budget_overrun", "deadline",
+                                                               "silent", "in_error",       "out_of_order"};
 
 /// Limits of one component.
 struct ComponentLimits {
@@ -193,7 +194,13 @@ class ExecutionSupervisor final : public ExecutionObserver {
     ///         too late in this cycle, or no component of global scope is active, so that nothing is proven.
     [[nodiscard]] GlobalStatus step(Instant now) noexcept;
 
-    /// @return result of the last step(); kFailed before the first.
+    /// Expires a component for a violation that another supervision found, unless it is expired. The global
+    /// status of the last step() follows.
+    /// @param[in] component of the table, or 0 .. count - 1; any other is a contract violation.
+    /// @param[in] cause     not kNone. @param[in] now of the last step().
+    void expire(std::size_t component, ExpiryCause cause, Instant now) noexcept;
+
+    /// @return result of the last step() and of expire() since; kFailed before the first.
     GlobalStatus get_global_status() const noexcept { return global_status_; }
 
     /// @param[in] component of the table, or 0 .. count - 1; any other is a contract violation.
