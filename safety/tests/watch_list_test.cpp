@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: a supervisor of a table identifies components by themselves, and a list of limits is applied as a
-// whole. Method: two components of one type in a table, a third outside it; each fault of a list.
-#include "mamori/safety/supervision/watch_check.hpp"
+// whole. Method: two components of one type in a table, a third outside it.
+#include "mamori/safety/supervision/execution_supervisor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,6 @@ ExecutionSupervisor g_supervision{g_storage, 10_us};
 
 constexpr ComponentLimits kSilentAfterOne{{1U, 1U}, {0_us, 40_us}};
 constexpr std::array kLimits = {watch(g_second, kSilentAfterOne), watch(g_first, {{2U, 3U}, {0_us, 40_us}})};
-static_assert(is_watch_list_of<kSystem, kLimits>());
 
 class WatchListTest : public ::testing::Test {
   protected:
@@ -115,23 +114,6 @@ TEST_F(WatchListTest, AListEndsAtTheFirstRejectedRow) {
     EXPECT_EQ(sut_.watch(g_first, kSilentAfterOne), Status::kPreconditionNotMet);
     EXPECT_EQ(sut_.watch(g_second, kSilentAfterOne), Status::kOk);
     EXPECT_EQ(sut_.watch(Span<const WatchRow>{}), Status::kOk);
-}
-
-TEST(WatchCheckTest, TheFirstFaultOfAListIsFound) {
-    verifies("SWR-SUP-041", Technique::kBoundaryValues, Polarity::kViolation);
-    const auto find = [](const WatchRow& row) {
-        const std::array<WatchRow, 2U> rows{{watch(g_first, kSilentAfterOne), row}};
-        const WatchFinding finding = find_watch_fault(rows, kSystem.components);
-        EXPECT_EQ(finding.row, finding.fault == WatchFault::kNone ? 0U : 1U);
-        return finding.fault;
-    };
-
-    EXPECT_EQ(find(watch(g_second, kSilentAfterOne)), WatchFault::kNone);
-    EXPECT_EQ(find(watch(g_stranger, kSilentAfterOne)), WatchFault::kComponentNotInTable);
-    EXPECT_EQ(find(watch(g_first, kSilentAfterOne)), WatchFault::kComponentTwice);
-    EXPECT_EQ(find(watch(g_second, {{0U, 1U}, {0_us, 40_us}})), WatchFault::kAliveLimits);
-    EXPECT_EQ(find(watch(g_second, {{1U, 1U}, {41_us, 40_us}})), WatchFault::kDeadlineLimits);
-    EXPECT_TRUE((is_watch_list_of<kSystem, kLimits>()));
 }
 
 }  // namespace

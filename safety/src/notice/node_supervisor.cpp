@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mamori/safety/notice/node_supervisor.hpp"
+#include "mamori/safety/notice/node_monitor.hpp"
 
 #include "mamori/safety/base/elapsed.hpp"
-#include "mamori/safety/notice/notice.hpp"
 
 namespace mamori::safety {
 namespace {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: missing notices and reports of components become latched faults in time, and nothing else does.
 // Method: both sides of each time, each fault alone, worst first, acknowledgement.
-#include "mamori/safety/notice/node_supervisor.hpp"
+#include "mamori/safety/notice/node_monitor.hpp"
 
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
 
-#include "mamori/safety/notice/notice.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "mamori/verification/failed_check.hpp"
 
@@ -214,8 +213,18 @@ TEST(NoticeLimitsTest, LimitsOutsideTheirRangeAreInvalid) {
     EXPECT_FALSE(is_valid({Duration{0}, 1U, 2U, 8U}, Duration{kLongest / 8 + 1}));
     EXPECT_FALSE(is_valid({Duration{0}, 1U, 16U, 8U}, Duration{kLongest / 8}));
     EXPECT_TRUE(is_valid({Duration{0}, 1U, 8U, 8U}, Duration{kLongest / 8}));
-    EXPECT_CHECK_FAILS((NodeSupervisor{kPeriod, NoticeLimits{Duration{0}, 2U, 2U}}), "node_supervisor.hpp",
-                       1);
+    EXPECT_CHECK_FAILS((NodeSupervisor{kPeriod, NoticeLimits{Duration{0}, 2U, 2U}}), "node_monitor.hpp", 2);
+}
+
+TEST(NoticeLimitsTest, UnstatedLimitsAreThreePeriodsOfSilenceAndTenOfStart) {
+    verifies("SWR-NTC-004", Technique::kInterface);
+    constexpr NoticeLimits kUnstated{};
+    EXPECT_EQ(kUnstated.tolerance, Duration{0});
+    EXPECT_EQ(kUnstated.late_periods, 2U);
+    EXPECT_EQ(kUnstated.silent_periods, 3U);
+    EXPECT_EQ(kUnstated.start_periods, 10U);
+    EXPECT_EQ(NodeStatus{}.component, 0xFFFFU);
+    EXPECT_FALSE(NodeStatus{}.is_proven);
 }
 
 TEST(NoticeFaultTest, EachFaultHasANameAndABitOfItsOwn) {

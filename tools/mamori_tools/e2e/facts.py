@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Creates safety/include/mamori/safety/e2e/residual_facts.hpp: the compile-time figures of the 16- and 32-bit checksums.
+"""Creates the rows of safety/include/mamori/safety/e2e/residual_error.hpp: the compile-time figures of the 16- and 32-bit checksums.
 
     python -P -m mamori_tools.e2e.facts
 
@@ -25,53 +25,13 @@ from mamori_tools.e2e.spectra import P4_LENGTHS, load
 from mamori_tools.host.project import ROOT
 from mamori_trace.base.text_file import write_text
 
-HEADER = ROOT / "safety" / "include" / "mamori" / "safety" / "e2e" / "residual_facts.hpp"
+HEADER = ROOT / "safety" / "include" / "mamori" / "safety" / "e2e" / "residual_error.hpp"
 # Bytes. 4093: the longest message with a distance above 2.
 CRC16_LENGTHS = (*range(3, 9), 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 96, 128, 256, 512, 1024, 2048, 4093, 4096)
-TEXT = """// SPDX-License-Identifier: Apache-2.0
-/// @file
-/// What the compiler is told of the residual errors of frames with 16- and 32-bit checksums. Written by
-/// tools/mamori_tools/e2e/facts.py; a test makes it again and compares.
-///
-/// @satisfies SWR-E2E-023      Design: docs/design/e2e.md#residual-error
-#ifndef MAMORI_SAFETY_E2E_RESIDUAL_FACTS_HPP
-#define MAMORI_SAFETY_E2E_RESIDUAL_FACTS_HPP
-
-#include <array>
-#include <cstddef>
-#include <cstdint>
-
-#include "mamori/safety/e2e/crc_catalogue.hpp"
-#include "mamori/safety/e2e/wire.hpp"
-
-namespace mamori::safety::detail {{
-
-/// Error patterns that pass in frames of one length.
-struct ResidualFacts {{
-    std::size_t length;              ///< of the frame with its header [bytes]
-    std::uint32_t distance;          ///< fewest turned bits that may pass
-    std::uint64_t patterns;          ///< how many patterns of so many bits pass, below 2^53
-    std::uint32_t share_hundredths;  ///< greatest share of any higher weight that passes [2^-width / 100]
-}};
-
-/// Checksum of all rows: a row that was changed by hand does not compile.
-template <std::size_t kRows>
-constexpr std::uint32_t calc_fingerprint(const std::array<ResidualFacts, kRows>& rows) noexcept {{
-    Crc<kCrc32, 1U> crc;
-    for (const ResidualFacts& row : rows) {{
-        const std::array<std::uint64_t, 4U> values{{row.length, row.distance, row.patterns,
-                                                   row.share_hundredths}};
-        for (const std::uint64_t value : values) {{
-            for (unsigned place = 0U; place < sizeof(value); ++place) {{
-                crc.add(get_byte(value, place));
-            }}
-        }}
-    }}
-    return crc.get_value();
-}}
-
-// clang-format off: a row per line
-/// Profiles 5 and 6.
+# First and last line of the rows in the header.
+FIRST = "// clang-format off: a row per line, all written by tools/mamori_tools/e2e/facts.py\n"
+LAST = "// clang-format on\n"
+TEXT = """/// Profiles 5 and 6.
 inline constexpr std::array kResidualFacts16{{
 {rows16}
 }};
@@ -82,11 +42,6 @@ inline constexpr std::array kResidualFacts32{{
 {rows32}
 }};
 static_assert(calc_fingerprint(kResidualFacts32) == 0x{fingerprint32:08X}U, "a row was changed; run facts.py");
-// clang-format on
-
-}}  // namespace mamori::safety::detail
-
-#endif  // MAMORI_SAFETY_E2E_RESIDUAL_FACTS_HPP
 """
 
 
@@ -141,14 +96,16 @@ def make_facts(checksum: Checksum, lengths: Iterable[int]) -> Iterator[Fact]:
 
 
 def make_header() -> str:
-    """The complete header. @raise ValueError like make_facts()."""
+    """The complete header with new rows. @raise ValueError like make_facts()."""
     texts: dict[str, str | int] = {}
     for checksum, lengths in ((CRC16, CRC16_LENGTHS), (CRC32_P4, P4_LENGTHS)):
         rows = list(make_facts(checksum, lengths))
         values = [value for row in rows for value in row.values]
         texts[f"rows{checksum.width}"] = "\n".join(row.make_row() for row in rows)
         texts[f"fingerprint{checksum.width}"] = zlib.crc32(struct.pack(f"<{len(values)}Q", *values))
-    return TEXT.format(**texts)
+    text = HEADER.read_text(encoding="utf-8")
+    begin = text.index(FIRST) + len(FIRST)
+    return text[:begin] + TEXT.format(**texts) + text[text.index(LAST, begin) :]
 
 
 def main(path: Path = HEADER) -> int:

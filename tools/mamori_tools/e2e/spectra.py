@@ -23,7 +23,7 @@ from mamori_tools.e2e.residual import CRC32, CRC32_P4, Checksum, Spectrum, calc_
 from mamori_trace.base.text_file import write_text
 
 FOLDER = Path(__file__).parent / "spectra"
-# Bytes: the lengths of the published table, and lengths between and above for rows of residual_facts.hpp. 38: the longest message with
+# Bytes: the lengths of the published table, and lengths between and above for rows of residual_error.hpp. 38: the longest message with
 # distance 8. 8191: the longest with distance 4; in longer messages, two flipped bits may pass.
 P4_LENGTHS = (12, 16, 20, 24, 28, 32, 38, 48, 56, 64, 96, 128, 256, 512, 1024, 2048, 4096, 8191)
 STORED = ((CRC32, 64), *((CRC32_P4, length) for length in P4_LENGTHS))

@@ -18,8 +18,8 @@
 
 #include "mamori/kernel/component/component.hpp"
 #include "mamori/kernel/run/execution_observer.hpp"
-#include "mamori/kernel/table/mode_table.hpp"
 #include "mamori/kernel/table/index_of.hpp"
+#include "mamori/kernel/table/mode_table.hpp"
 #include "mamori/safety/supervision/alive_supervisor.hpp"
 #include "mamori/safety/supervision/deadline_limits.hpp"
 
@@ -66,7 +66,7 @@ struct WatchRow {
     const Component* component{nullptr};
     ComponentLimits limits{};
 };
-/// Row of a constant list of limits, which is_watch_list_of() checks (watch_check.hpp).
+/// Row of a list of limits.
 /// @param[in] component of the system table; must outlive the list. @param[in] limits valid.
 constexpr WatchRow watch(const Component& component, const ComponentLimits& limits) noexcept {
     return {&component, limits};
@@ -114,7 +114,6 @@ struct LateRelease {
 ///     static mamori::safety::ExecutionStorageFor<kSystem> storage;
 ///     mamori::safety::ExecutionSupervisor supervision{storage, 50_us};
 ///     static constexpr std::array kLimits = {mamori::safety::watch(reader, {{2U, 4U}, {0_us, 40_us}})};
-///     static_assert(mamori::safety::is_watch_list_of<kSystem, kLimits>());
 ///     ... supervision.watch(kLimits);
 ///
 /// Thread safety: on_budget_overrun may be called from another context; all other members from one and the
@@ -165,9 +164,8 @@ class ExecutionSupervisor final : public ExecutionObserver {
     Status watch(const Component& component, const ComponentLimits& limits) noexcept {
         return watch(find(component), limits);
     }
+
     /// The same for each row in order, up to the first that is rejected.
-    /// @param[in] rows checked by is_watch_list_of(): then only a component that is already watched is
-    ///                 rejected.
     Status watch(Span<const WatchRow> rows) noexcept;
 
     /// Tells that the component is meant to be silent, or to run again.
