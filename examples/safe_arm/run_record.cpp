@@ -64,6 +64,7 @@ std::string describe_argument(const mamori::Event& event) {
         case CycleEvent::kComponentExpired:
             return mamori::safety::kExpiryCauseNames.at(static_cast<std::size_t>(event.argument));
         case CycleEvent::kWatchdogRefused:
+        case CycleEvent::kSelfTestFailed:
             break;
     }
     return std::to_string(event.argument);

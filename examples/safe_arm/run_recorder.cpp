@@ -31,8 +31,8 @@ Json make_names(Enum first, Enum last) {
 
 /// The table that `mamori log` reads: docs/design/recorder.md.
 std::string make_name_table() {
-    constexpr std::array<const char*, kCycleEventNames.size()> kArguments{"state", "fault",      "reaction",
-                                                                          "",      "assumption", "cause"};
+    constexpr std::array<const char*, kCycleEventNames.size()> kArguments{
+        "state", "fault", "reaction", "", "assumption", "cause", ""};
     Json codes = Json::object();
     for (std::size_t code = 0U; code < kCycleEventNames.size(); ++code) {
         codes[std::to_string(code)] = {{"name", kCycleEventNames[code]}, {"argument", kArguments[code]}};

@@ -4,6 +4,7 @@
 
 #include "arm_assumptions.hpp"
 #include "arm_safety.hpp"
+#include "arm_self_check.hpp"
 
 namespace safe_arm {
 
@@ -26,6 +27,7 @@ static ArmChecks checks{watchdog};
 static constexpr std::array kAssumptions = make_arm_assumptions(checks);
 static_assert(mamori::safety::checks_all<kAssumptions, ArmAssumption::kCount>());
 static mamori::safety::AssumptionMonitor assumptions{kAssumptions};
+extern ArmSelfCheck self_check;
 
 ArmReader reader{inputs};
 JointMonitor monitor;
@@ -38,7 +40,7 @@ DriveGate gate{outputs};
 
 static constexpr auto kSafeArm = mamori::safety::system(
     mamori::frame(kFrame), mamori::trace_hash(), make_arm_safety(kLatenessMax),
-    supervise(reader, alive(), deadline(kSafetyComponentMax)),
+    make_arm_self_check(self_check), supervise(reader, alive(), deadline(kSafetyComponentMax)),
     supervise(monitor, alive(), deadline(kSafetyComponentMax)),
     supervise(supervisor, alive(), deadline(kSafetyComponentMax)),
     supervise(command_receiver, alive(), deadline(kSafetyComponentMax)),
@@ -72,6 +74,7 @@ static constexpr auto kSafeArm = mamori::safety::system(
     mamori::modelled_time(gate, kSafetyComponentTime));
 MAMORI_SAFETY_CHECK(kSafeArm);
 
+ArmSelfCheck self_check{kSafeArm, inputs};
 static mamori::safety::SafetyStorage<kSafeArm> safety_storage;
 mamori::safety::SafetyState safety_state{safety_storage, watchdog, &assumptions};
 constexpr std::size_t kFirstWindow = mamori::index_of(kSafeArm, "protect");

@@ -121,6 +121,46 @@ TEST(SafetyRulesTest, ConfirmationsAreOfDeclaredFaultsOnce) {
               SafetyRule::kConfirmationInRange);
 }
 
+class Check final : public SelfTest {
+  public:
+    void begin() noexcept override {}
+    SelfTestStatus step() noexcept override { return SelfTestStatus::kPassed; }
+    std::size_t get_step_count() const noexcept override { return 1U; }
+};
+Check g_check;
+Check g_other_check;
+
+/// The finding of a table whose second self test is changed.
+template <typename Change>
+SafetyFinding check_self_test(Change change) {
+    auto table = build(supervise(g_guard, alive(), deadline(1_ms)), make_cycle(),
+                       self_test(g_check, found_within(2_ms), raises(Fault::kFast)),
+                       self_test(g_other_check, found_within(2_ms), raises(Fault::kSilent)));
+    change(table.self_tests[1U]);
+    const SafetyFinding finding = detail::check_safety(table);
+    return finding.rule == SafetyRule::kNone ? detail::check_cycle_window(table, 0U) : finding;
+}
+
+TEST(SafetyRulesTest, SelfTestsWithATimeForTheirStepsAreAccepted) {
+    verifies("SWR-CYC-023", Technique::kBoundaryValues);
+    EXPECT_EQ(check_self_test([](SelfTestRow&) {}).rule, SafetyRule::kNone);
+    EXPECT_EQ(check_self_test([](SelfTestRow& row) { row.fault = 0U; }).rule, SafetyRule::kNone);
+}
+
+TEST(SafetyRulesTest, SelfTestsAreOfDeclaredFaultsOnceWithSteps) {
+    verifies("SWR-CYC-023", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto expect = [](SafetyRule rule, auto change) {
+        const SafetyFinding finding = check_self_test(change);
+        EXPECT_EQ(finding.rule, rule);
+        EXPECT_EQ(finding.row, 1U);
+    };
+    expect(SafetyRule::kTestedFaultDeclared, [](SelfTestRow& row) { row.fault = 2U; });
+    expect(SafetyRule::kTestedOnce, [](SelfTestRow& row) { row.check = &g_check; });
+    expect(SafetyRule::kTestHasSteps, [](SelfTestRow& row) { row.found_within = 2_ms - 1_ns; });
+    expect(SafetyRule::kTestHasSteps, [](SelfTestRow& row) { row.found_within = 0_ms; });
+    expect(SafetyRule::kTestHasSteps, [](SelfTestRow& row) { row.found_within = Duration{-1}; });
+}
+
 TEST(SafetyRulesTest, SettingsOfTheCycleAreInRange) {
     verifies("SWR-CYC-002", Technique::kBoundaryValues, Polarity::kViolation);
     const auto check_cycle = [](auto change) {

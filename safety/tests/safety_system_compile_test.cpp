@@ -18,6 +18,7 @@ struct Defect {
 };
 
 class SafetySystemCompileTest : public ::testing::TestWithParam<Defect> {};
+class SelfTestRowCompileTest : public ::testing::TestWithParam<Defect> {};
 
 TEST(SafetySystemCompileTest, ATableWithoutADefectCompiles) {
     verifies("SWR-CYC-002");
@@ -51,6 +52,11 @@ class StopSourceCompileTest : public ::testing::TestWithParam<Defect> {};
 
 TEST_P(StopSourceCompileTest, IsRejectedWithTheFaultyElement) {
     verifies("SWR-CYC-012", Technique::kEquivalenceClasses, Polarity::kViolation);
+    expect_rejected(GetParam());
+}
+
+TEST_P(SelfTestRowCompileTest, IsRejectedWithTheFaultyElement) {
+    verifies("SWR-CYC-023", Technique::kBoundaryValues, Polarity::kViolation);
     expect_rejected(GetParam());
 }
 
@@ -131,6 +137,16 @@ INSTANTIATE_TEST_SUITE_P(EachDefect, SafetySystemCompileTest, ::testing::ValuesI
 INSTANTIATE_TEST_SUITE_P(EachDefect, CheckpointCompileTest, ::testing::ValuesIn(kCheckpointDefects),
                          [](const auto& one) { return std::string{one.param.macro}; });
 INSTANTIATE_TEST_SUITE_P(EachDefect, StopSourceCompileTest, ::testing::ValuesIn(kSourceDefects),
+                         [](const auto& one) { return std::string{one.param.macro}; });
+
+constexpr Defect kSelfTestDefects[] = {
+    {"TESTED_TWICE", "Fault::kFast", "two self_test(...)"},
+    {"TESTED_OTHER_FAULT", "faults", "all faults of a system are enumerators of one enumeration"},
+    {"TESTED_FAULT", "TableRow<1>", "self_test(...) raises a fault"},
+    {"TESTED_TOO_OFTEN", "Fault::kFast", "at least two periods of the safety cycle"},
+    {"TESTED_WITHOUT_TIME", "self_test", "states found_within(...)"},
+};
+INSTANTIATE_TEST_SUITE_P(EachDefect, SelfTestRowCompileTest, ::testing::ValuesIn(kSelfTestDefects),
                          [](const auto& one) { return std::string{one.param.macro}; });
 
 }  // namespace

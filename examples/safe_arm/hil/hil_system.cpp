@@ -5,6 +5,7 @@
 
 #include "arm_assumptions.hpp"
 #include "arm_safety.hpp"
+#include "arm_self_check.hpp"
 #include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/ports/virtual_time/machine.hpp"
 
@@ -28,6 +29,7 @@ static ArmChecks checks{watchdog_mirror};
 static constexpr std::array kAssumptions = make_arm_assumptions(checks);
 static_assert(mamori::safety::checks_all<kAssumptions, ArmAssumption::kCount>());
 static mamori::safety::AssumptionMonitor assumptions{kAssumptions};
+extern ArmSelfCheck self_check;
 
 DeviceQueue device_queue;
 CommandQueue command_queue;
@@ -57,9 +59,10 @@ mamori::ports::lcm::LinkSender<DriveMessage> drive_sender{"drive_sender", drive_
 /// Budgets bound the times; here only silence counts, since a shared host can stretch a run.
 static constexpr auto kHilSystem = mamori::safety::system(
     mamori::frame(kFrame), mamori::trace_hash(), make_arm_safety(hil::kLatenessMax),
-    supervise(reader, alive(), deadline(390_us)), supervise(filter, alive(), deadline(390_us)),
-    supervise(monitor, alive(), deadline(390_us)), supervise(supervisor, alive(), deadline(390_us)),
-    supervise(gate, alive(), deadline(390_us)), supervise(encoder, alive(), deadline(390_us)),
+    make_arm_self_check(self_check), supervise(reader, alive(), deadline(390_us)),
+    supervise(filter, alive(), deadline(390_us)), supervise(monitor, alive(), deadline(390_us)),
+    supervise(supervisor, alive(), deadline(390_us)), supervise(gate, alive(), deadline(390_us)),
+    supervise(encoder, alive(), deadline(390_us)),
     supervise(command_receiver, alive(), deadline(390_us), raises(ArmFault::kControllerSilent)),
     confirmed_by(monitor.state, StopConfirmation::kStandstill),
     confirmed_by(filter.out, StopConfirmation::kClosedBrakes, StopConfirmation::kTorqueOff),
@@ -89,6 +92,7 @@ static constexpr auto kHilSystem = mamori::safety::system(
     mamori::connect(encoder.out, drive_sender.in, mamori::any_age()));
 MAMORI_SAFETY_CHECK(kHilSystem);
 
+ArmSelfCheck self_check{kHilSystem, inputs};
 static mamori::safety::SafetyStorage<kHilSystem> safety_storage;
 mamori::safety::SafetyState safety_state{safety_storage, watchdog, &assumptions};
 

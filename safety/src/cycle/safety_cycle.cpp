@@ -51,6 +51,12 @@ Status SafetyCycle::apply_table() noexcept {
             return result;
         }
     }
+    for (SelfTestSchedule& schedule : state_.schedules_) {
+        const Status result = schedule.start(Instant{}, state_.period_);
+        if (result != Status::kOk) {
+            return result;
+        }
+    }
     return Status::kOk;
 }
 
@@ -82,7 +88,7 @@ void SafetyCycle::decide(Instant now) noexcept {
     const SafeState before = state_.machine_.get_state();
     SafeStateInputs inputs{};
     inputs.standstill = state_.brakes_.confirm(before, machine.is_standing, machine.are_brakes_closed, now);
-    inputs.self_test = combine(test(now), check_assumptions(now));
+    inputs.self_test = combine(combine(test(now), check_assumptions(now)), repeat_self_tests(now));
     report_faults(inputs.self_test, now);
     follow_reset(machine.reset_button);
     const ReactionDemand demand = calc_reaction(state_.reactions_, state_.faults_, machine.mode);
@@ -175,6 +181,38 @@ SelfTestStatus SafetyCycle::check_assumptions(Instant now) noexcept {
     return status;
 }
 
+/// @return kRunning until each first pass has ended; a failed test is its fault, whose reaction is in the
+/// table, and else does not prevent the end of the state SelfTest.
+SelfTestStatus SafetyCycle::repeat_self_tests(Instant now) noexcept {
+    auto result = SelfTestStatus::kPassed;
+    is_test_failed_ = false;
+    for (std::size_t i = 0U; i < state_.schedules_.size(); ++i) {
+        SelfTestSchedule& schedule = state_.schedules_[i];
+        const bool had_failed = schedule.get_failure() != SelfTestFailure::kNone;
+        if (!has_stepped_) {
+            // The time begins here. The initialisation has shown that the steps fit.
+            static_cast<void>(schedule.start(now, state_.period_));
+        }
+        const SelfTestStatus status = schedule.step(now);
+        result = status == SelfTestStatus::kRunning ? status : result;
+        const bool has_failed = status >= SelfTestStatus::kFailed;
+        is_test_failed_ = is_test_failed_ || has_failed;
+        if (has_failed && !had_failed) {
+            write_event(now, Severity::kFault, CycleEvent::kSelfTestFailed, static_cast<std::int64_t>(i));
+        }
+    }
+    return result;
+}
+
+bool SafetyCycle::has_failed_test(FaultIndex fault) const noexcept {
+    bool result = false;
+    for (std::size_t i = 0U; i < state_.schedules_.size(); ++i) {
+        result = result || (state_.self_tests_[i].fault == fault &&
+                            state_.schedules_[i].get_status() >= SelfTestStatus::kFailed);
+    }
+    return result;
+}
+
 void SafetyCycle::report_faults(SelfTestStatus self_test, Instant now) noexcept {
     for (std::size_t i = 0U; i < state_.faults_.get_capacity(); ++i) {
         const auto fault = static_cast<FaultIndex>(i);
@@ -194,6 +232,7 @@ bool SafetyCycle::find_presence(FaultIndex fault, SelfTestStatus self_test, Inst
     result = result || (fault == state_.rules_.self_test_fault && self_test == SelfTestStatus::kFailed);
     result = result || (fault == state_.rules_.late_fault && is_reaction_late_);
     result = result || (fault == state_.rules_.brake_fault && state_.brakes_.is_overdue(now));
+    result = result || (is_test_failed_ && has_failed_test(fault));
     for (const SuperviseRow& row : state_.supervised_) {
         if (row.fault == fault && is_expired(row)) {
             result = true;

@@ -25,6 +25,18 @@ Reader reader{"reader"};
 Reader stranger{"stranger"};
 Decider decider;
 Decider second_decider;
+class Check final : public SelfTest {
+  public:
+    void begin() noexcept override {}
+    SelfTestStatus step() noexcept override { return SelfTestStatus::kPassed; }
+    std::size_t get_step_count() const noexcept override { return 1U; }
+};
+Check check;
+#ifdef MAMORI_DEFECT_TESTED_TWICE
+Check& second_check = check;
+#else
+Check second_check;
+#endif
 
 enum class Entity { kReader, kOther, kUnknown };
 enum class Point { kBegin, kEnd, kOther };
@@ -260,6 +272,18 @@ constexpr auto kSystem = mamori::safety::system(
     confirm(Fault::kFast, {2U}, {0U}),
 #else
     confirm(Fault::kFast, {2U}, {3U}),
+#endif
+    self_test(check, found_within(2_ms), raises(Fault::kSelfTest)),
+#if defined(MAMORI_DEFECT_TESTED_OTHER_FAULT)
+    self_test(second_check, found_within(2_ms), raises(OtherFault::kFast)),
+#elif defined(MAMORI_DEFECT_TESTED_FAULT)
+    self_test(second_check, found_within(2_ms), raises(Fault::kUndeclared)),
+#elif defined(MAMORI_DEFECT_TESTED_TOO_OFTEN)
+    self_test(second_check, found_within(2_ms - 1_ns), raises(Fault::kFast)),
+#elif defined(MAMORI_DEFECT_TESTED_WITHOUT_TIME)
+    self_test(second_check, raises(Fault::kFast)),
+#else
+    self_test(second_check, found_within(2_ms), raises(Fault::kFast)),
 #endif
 #ifdef MAMORI_DEFECT_CYCLE_TWICE
     kCycle,

@@ -184,6 +184,7 @@ TEST(RamAreaTest, AccessOutsideTheAreaGoesToTheAssertionHandler) {
     area.write(1U, 9U);
     EXPECT_EQ(area.read(0U), 7U);
     EXPECT_EQ(area.read(1U), 9U);
+    EXPECT_EQ((RamArea{words.data(), 1U}).read(0U), 7U);
 
     EXPECT_CHECK_FAILS(static_cast<void>(area.read(2U)), "ram_area.hpp", 2);
     EXPECT_CHECK_FAILS(area.write(2U, 0U), "ram_area.hpp", 3);
@@ -233,16 +234,17 @@ TEST(TransparentMarchTest, StepTouchesItsBlockOnlyAndEveryWordHasItsTurn) {
     verifies("SWR-SLF-006", Technique::kBoundaryValues);
     FaultySram memory(9U);
     Transparent sut(memory);
-    ASSERT_EQ(sut.get_step_count(), 4U) << "blocks at 0, 2, 4 and 5";
+    ASSERT_EQ(sut.get_step_count(), 4U * 4U) << "blocks at 0, 2, 4 and 5, under four backgrounds";
     sut.begin();
 
-    for (const std::size_t first : {0U, 2U, 4U, 5U}) {
+    for (std::size_t step = 0U; step < sut.get_step_count(); ++step) {
+        constexpr std::array<std::size_t, 4U> kFirst{0U, 2U, 4U, 5U};
         memory.touched_.clear();
         static_cast<void>(sut.step());
         const auto [low, high] = std::minmax_element(memory.touched_.begin(), memory.touched_.end());
-        EXPECT_EQ(*low, first);
-        EXPECT_EQ(*high, first + 3U);
-        EXPECT_EQ(memory.touched_.size(), 4U * (10U * 4U + 3U)) << "March C-, and save, restore and look";
+        EXPECT_EQ(*low, kFirst[step / 4U]);
+        EXPECT_EQ(*high, kFirst[step / 4U] + 3U);
+        EXPECT_EQ(memory.touched_.size(), 4U * (10U + 3U)) << "March C-, and save, restore and look";
     }
 }
 
@@ -299,13 +301,39 @@ struct FadingMemory {
 
 TEST(TransparentMarchTest, WordThatDoesNotTakeItsContentsBackIsFound) {
     verifies("SWR-SLF-006", Technique::kFaultInjection, Polarity::kViolation);
-    constexpr std::size_t kMarchWrites = 4U * 5U * 4U;
+    constexpr std::size_t kStepWrites = 4U * (5U + 1U);               // March C- and restore
+    constexpr std::size_t kMarchWrites = 3U * kStepWrites + 4U * 5U;  // up to the last restore
 
     for (const std::size_t restored : {0U, 3U, 4U}) {
         FadingMemory memory{{{1U, 2U, 3U, 4U}}, kMarchWrites + restored};
         TransparentMarch<FadingMemory, 4U> sut(memory);
         EXPECT_EQ(run_pass(sut), restored == 4U ? SelfTestStatus::kPassed : SelfTestStatus::kFailed)
             << restored;
+    }
+}
+
+/// Memory that loses one write.
+struct ForgetfulMemory {
+    using Word = std::uint8_t;
+    std::size_t size() const { return cells.size(); }
+    Word read(std::size_t index) const { return cells[index]; }
+    void write(std::size_t index, Word value) {
+        cells[index] = writes == lost ? cells[index] : value;
+        ++writes;
+    }
+    std::array<Word, 4U> cells{{1U, 2U, 3U, 4U}};
+    std::size_t lost;
+    std::size_t writes{0U};
+};
+
+TEST(TransparentMarchTest, EachSingleWordThatDoesNotTakeItsContentsBackIsFound) {
+    verifies("SWR-SLF-006", Technique::kFaultInjection, Polarity::kViolation);
+    constexpr std::size_t kFirstRestore = 3U * 4U * 6U + 4U * 5U;  // of the last step
+
+    for (std::size_t word = 0U; word < 4U; ++word) {
+        ForgetfulMemory memory{{{1U, 2U, 3U, 4U}}, kFirstRestore + word};
+        TransparentMarch<ForgetfulMemory, 4U> sut(memory);
+        EXPECT_EQ(run_pass(sut), SelfTestStatus::kFailed) << word;
     }
 }
 

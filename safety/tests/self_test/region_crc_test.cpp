@@ -100,6 +100,30 @@ TEST_F(RegionCrcTest, WrongExpectationIsFound) {
     EXPECT_EQ(run_pass(sut), SelfTestStatus::kFailed);
 }
 
+TEST_F(RegionCrcTest, TheFirstPassMakesTheReference) {
+    verifies("SWR-CYC-024");
+    flip(3U);
+    RegionCrc sut(region_, 7U);
+
+    EXPECT_EQ(sut.get_step_count(), (kSize + 6U) / 7U);
+    EXPECT_EQ(run_pass(sut), SelfTestStatus::kPassed) << "what is wrong before is not found";
+    EXPECT_EQ(run_pass(sut), SelfTestStatus::kPassed);
+}
+
+TEST_F(RegionCrcTest, EachBitThatTurnsAfterTheFirstPassIsFound) {
+    verifies("SWR-CYC-024", Technique::kFaultInjection, Polarity::kViolation);
+    RegionCrc sut(region_, 7U);
+    ASSERT_EQ(run_pass(sut), SelfTestStatus::kPassed);
+
+    for (std::size_t bit = 0U; bit < kSize * 8U; ++bit) {
+        flip(bit);
+        ASSERT_EQ(run_pass(sut), SelfTestStatus::kFailed) << bit;
+        flip(bit);
+    }
+    EXPECT_EQ(run_pass(sut), SelfTestStatus::kPassed) << "a failure does not change the reference";
+    EXPECT_CHECK_FAILS((RegionCrc{region_, 0U}), "region_crc.hpp", 2);
+}
+
 TEST_F(RegionCrcTest, NothingToCheckGoesToTheAssertionHandler) {
     verifies("SWR-SLF-007", Technique::kBoundaryValues, Polarity::kViolation);
 

@@ -12,9 +12,11 @@
 #include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/ports/posix_rt/watchdog_device.hpp"
 #include "mamori/ports/virtual_time/virtual_host.hpp"
+#include "mamori/safety/cycle/safety_part.hpp"
 #include "mamori/safety/e2e/e2e.hpp"
 #include "mamori/safety/notice/node_monitor.hpp"
 #include "mamori/safety/notice/survival_notifier.hpp"
+#include "mamori/safety/self_test/region_crc.hpp"
 #include "mamori/table_dump/table_dump.hpp"
 #include "mamori/timing/cost_run.hpp"
 
@@ -122,6 +124,19 @@ static void init_with_priority_inheritance(pthread_mutex_t& mutex) {
 }
 
 }  // namespace real_time
+
+namespace safety_module {
+
+using namespace mamori::safety;  // NOLINT: the words of a row
+enum class Fault : FaultIndex { kMemory };
+static constexpr std::array<double, 7U> kSpeedLimits{};
+static RegionCrc constants{kSpeedLimits, 8U};
+
+[[maybe_unused]] static constexpr auto kRows = mamori::parts(
+    self_test(constants, found_within(500_ms), raises(Fault::kMemory)),
+    confirm(Fault::kMemory, {1U}));
+
+}  // namespace safety_module
 
 namespace last_resort {
 

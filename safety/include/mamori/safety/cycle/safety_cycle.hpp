@@ -5,7 +5,8 @@
 /// A machine derives its supervisor and adds only its inputs and outputs.
 ///
 /// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009
-/// @satisfies SWR-CYC-010, SWR-CYC-013, SWR-CYC-014, SWR-CYC-030, SWR-CYC-031
+/// @satisfies SWR-CYC-010, SWR-CYC-013, SWR-CYC-014, SWR-CYC-020, SWR-CYC-021, SWR-CYC-022, SWR-CYC-030
+/// @satisfies SWR-CYC-031
 /// Design:   docs/design/safety_cycle.md#order
 #ifndef MAMORI_SAFETY_SAFETY_CYCLE_HPP
 #define MAMORI_SAFETY_SAFETY_CYCLE_HPP
@@ -28,11 +29,12 @@ enum class CycleEvent : std::uint16_t {
     kWatchdogRefused,   ///< [GlobalStatus]
     kAssumptionFailed,  ///< [AssumptionIndex]
     kComponentExpired,  ///< [ExpiryCause]; source: index of the component in the table plus 1
+    kSelfTestFailed,    ///< [index of the self test in the table]
 };
 /// Spelling of an event in logs, indexed by its code.
-inline constexpr std::array<const char*, 6U> kCycleEventNames{"state_entered",     "fault_latched",
-                                                              "reaction_begun",    "watchdog_refused",
-                                                              "assumption_failed", "component_expired"};
+inline constexpr std::array<const char*, 7U> kCycleEventNames{
+    "state_entered",     "fault_latched",     "reaction_begun",  "watchdog_refused",
+    "assumption_failed", "component_expired", "self_test_failed"};
 
 /// Which component expired, and why.
 struct ComponentExpiry {
@@ -54,13 +56,14 @@ struct CycleInputs {
     bool can_hold{false};  ///< torque can hold the machine without its brakes
 };
 
-/// Thread safety: none; the executive calls it. Time: O(components + faults * reactions).
+/// Thread safety: none; the executive calls it. Time: O(components + faults * reactions), and one step of
+///                each self test of the table.
 /// Memory:        no heap; all state of the decision is in the SafetyState.
 class SafetyCycle : public Component, public CycleComponent {
   public:
     /// Confirmations and supervision of the table. @return kOk; kPreconditionNotMet (a second call while a
     /// fault is latched or a component is watched); kBadParameter (checkpoints<kTable>(...) names a
-    /// supervisor of another table).
+    /// supervisor of another table, or two passes of a self test do not fit into its found_within(...)).
     Status on_initialize() noexcept final { return apply_table(); }
     Status on_execute(ContextHandle context) noexcept final {
         decide(context.now);
@@ -112,6 +115,8 @@ class SafetyCycle : public Component, public CycleComponent {
     bool is_proven(StopConfirmation confirmation) const noexcept;
     SelfTestStatus test(Instant now) noexcept;
     SelfTestStatus check_assumptions(Instant now) noexcept;
+    SelfTestStatus repeat_self_tests(Instant now) noexcept;
+    bool has_failed_test(FaultIndex fault) const noexcept;
     void report_faults(SelfTestStatus self_test, Instant now) noexcept;
     bool find_presence(FaultIndex fault, SelfTestStatus self_test, Instant now) noexcept;
     void record_expiries(Instant now) noexcept;
@@ -144,6 +149,7 @@ class SafetyCycle : public Component, public CycleComponent {
     bool has_stepped_{false};
     bool was_torque_wanted_{false};  ///< in the frame before
     bool is_self_testing_{false};
+    bool is_test_failed_{false};  ///< one of those that the table repeats
     bool is_reaction_late_{false};
     bool is_watchdog_refused_{false};
     bool is_watchdog_serviced_{false};  ///< in the frame before

@@ -48,6 +48,9 @@ enum class SafetyRule : std::uint8_t {
     kEntityKnown,             ///< supervise
     kEntityOfOneComponent,    ///< supervise
     kEntityOfAComponent,      ///< entity
+    kTestedFaultDeclared,     ///< self_test
+    kTestedOnce,              ///< self_test
+    kTestHasSteps,            ///< self_test
 };
 
 /// The first violated rule; kNone when there is none.

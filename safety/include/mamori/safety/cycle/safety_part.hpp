@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Parts of a description that only mamori::safety::system(...) has: supervision of components, confirmation
-/// of faults and stops, bounds of stops, brakes and watchdog.
+/// of faults and stops, repeated self tests, bounds of stops, brakes and watchdog.
 ///
-/// @satisfies SWR-CYC-001, SWR-CYC-012, SWR-CYC-014      Design: docs/design/safety_cycle.md#the-table
+/// @satisfies SWR-CYC-001, SWR-CYC-012, SWR-CYC-014, SWR-CYC-023
+/// Design:   docs/design/safety_cycle.md#the-table
 #ifndef MAMORI_SAFETY_SAFETY_PART_HPP
 #define MAMORI_SAFETY_SAFETY_PART_HPP
 
@@ -18,6 +19,7 @@
 #include "mamori/safety/reaction/brake_sequence.hpp"
 #include "mamori/safety/reaction/fault_register.hpp"
 #include "mamori/safety/reaction/safe_state_machine.hpp"
+#include "mamori/safety/self_test/self_test.hpp"
 #include "mamori/safety/supervision/checkpoint_supervisor.hpp"
 #include "mamori/safety/supervision/execution_supervisor.hpp"
 #include "mamori/safety/supervision/watchdog_gate.hpp"
@@ -61,6 +63,12 @@ inline constexpr std::size_t kStopConfirmationCount = 3U;
 struct StopSourceRow {
     const OutPortBase* port{nullptr};
     std::array<bool, kStopConfirmationCount> confirms{};  ///< by the number of the confirmation
+};
+/// A self test that the safety cycle repeats, and the fault that it raises.
+struct SelfTestRow {
+    SelfTest* check{nullptr};
+    Duration found_within{0};  ///< two passes end within it
+    FaultIndex fault{kNoFault};
 };
 /// Settings of the safety cycle that a table states once.
 struct CycleRow {
@@ -123,6 +131,7 @@ constexpr Raises<Fault> raises(Fault fault) noexcept {
 struct SuperviseTag {};
 struct ConfirmTag {};
 struct StopSourceTag {};
+struct SelfTestTag {};
 struct CycleTag {};
 
 /// Made by supervise().
@@ -183,6 +192,37 @@ constexpr StopSourcePart confirmed_by(const OutPortBase& source, Confirmations..
     StopSourcePart part{{&source}};
     ((part.row.confirms[static_cast<std::size_t>(confirmations)] = true), ...);
     return part;
+}
+
+/// Made by found_within().
+struct FoundWithin {
+    Duration limit;
+};
+/// Longest time from the begin of a lasting fault to its detection by a self test: two passes of the test.
+/// @param[in] limit at least two periods of the safety cycle.
+constexpr FoundWithin found_within(Duration limit) noexcept {
+    return {limit};
+}
+
+/// Made by self_test().
+template <typename Fault>
+struct SelfTestPart {
+    using Types = extension::ExtensionTypes<SelfTestTag, Fault>;
+    SelfTestRow row{};
+};
+/// The cycle repeats the check, with one step per cycle and from power-up on. The machine waits for the end
+/// of the first pass. A failure is final: its fault is present until power is cycled.
+/// @param[in] check must outlive the table. @param[in] time found_within(...). @param[in] fault raises(...).
+template <typename Fault>
+constexpr SelfTestPart<Fault> self_test(SelfTest& check, FoundWithin time, Raises<Fault> fault) noexcept {
+    return {{&check, time.limit, detail::to_fault(fault.fault)}};
+}
+/// Without a time, a check has no steps: this does not compile.
+template <typename Fault>
+constexpr SelfTestPart<Fault> self_test(SelfTest&, Raises<Fault>) noexcept {
+    static_assert(!std::is_enum_v<Fault>,
+                  "a self_test(...) states found_within(...), the time for its steps");
+    return {};
 }
 
 /// Made by tolerated_lateness().

@@ -111,6 +111,21 @@ constexpr std::uint64_t list_sto_faults(const Table& table) noexcept {
 }
 
 template <typename Table>
+constexpr SafetyFinding check_self_tests(const Table& table) noexcept {
+    for (std::size_t i = 0U; i < table.self_tests.size(); ++i) {
+        if (table.self_tests[i].fault >= table.faults.size()) {
+            return {SafetyRule::kTestedFaultDeclared, i};
+        }
+        for (std::size_t earlier = 0U; earlier < i; ++earlier) {
+            if (table.self_tests[earlier].check == table.self_tests[i].check) {
+                return {SafetyRule::kTestedOnce, i};
+            }
+        }
+    }
+    return {};
+}
+
+template <typename Table>
 constexpr SafetyFinding check_cycle(const Table& table) noexcept {
     constexpr Duration kNothing{0};
     const CycleRow& row = table.cycle;
@@ -147,6 +162,7 @@ constexpr SafetyFinding check_safety(const Table& table) noexcept {
     finding = finding.rule == SafetyRule::kNone ? check_supervision(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_checkpoints(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_confirmations(table) : finding;
+    finding = finding.rule == SafetyRule::kNone ? check_self_tests(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_cycle(table) : finding;
     return finding.rule == SafetyRule::kNone ? check_stop_sources(table) : finding;
 }
@@ -180,19 +196,31 @@ constexpr SafetyFinding check_cycle_window(const Table& table, std::size_t windo
             return {SafetyRule::kSupervisedOnCore, i};
         }
     }
+    for (std::size_t i = 0U; i < table.self_tests.size(); ++i) {
+        if (table.self_tests[i].found_within.ns / 2 < period.ns) {
+            return {SafetyRule::kTestHasSteps, i};
+        }
+    }
     return {};
 }
+
+/// Index of the window that runs the safety cycle. @tparam kTable has exactly one.
+template <const auto& kTable>
+inline constexpr std::size_t kCycleWindow =
+    kTable.component_rows[find_cycle<kTable>(std::make_index_sequence<kTable.components.size()>{})].window;
 
 template <const auto& kTable>
 constexpr SafetyFinding check_cycle_component() noexcept {
     using Indices = std::make_index_sequence<kTable.components.size()>;
     constexpr std::size_t kCount = count_cycles<kTable>(Indices{});
-    if (kCount != 1U) {
+    if constexpr (kCount == 1U) {
+        const SafetyFinding finding = check_cycle_window(kTable, kCycleWindow<kTable>);
+        return finding.rule == SafetyRule::kNone
+                   ? check_sources_of_cycle(kTable, find_cycle<kTable>(Indices{}))
+                   : finding;
+    } else {
         return {SafetyRule::kCycleComponentOnce, kCount};
     }
-    constexpr std::size_t kCycle = find_cycle<kTable>(Indices{});
-    const SafetyFinding finding = check_cycle_window(kTable, kTable.component_rows[kCycle].window);
-    return finding.rule == SafetyRule::kNone ? check_sources_of_cycle(kTable, kCycle) : finding;
 }
 template <const auto& kTable>
 constexpr SafetyFinding check_safety_of() noexcept {
@@ -283,6 +311,11 @@ struct SafetyTableIsSound : std::true_type {
     static_assert(
         kRule != SafetyRule::kEntityOfAComponent,
         "an entity of the table of checkpoints has no component; name it with checkpoints<...>(...)");
+    static_assert(kRule != SafetyRule::kTestedFaultDeclared,
+                  "self_test(...) raises a fault that faults<...>() does not declare");
+    static_assert(kRule != SafetyRule::kTestedOnce, "a check has two self_test(...); keep one");
+    static_assert(kRule != SafetyRule::kTestHasSteps,
+                  "found_within(...) is at least two periods of the safety cycle, or the check has no step");
 };
 
 namespace detail {
@@ -307,6 +340,8 @@ constexpr auto show_faulty() noexcept {
         return Shown<Unconfirmed<static_cast<StopConfirmation>(kRow)>>{};
     } else if constexpr (kRule == SafetyRule::kConfirmedOnce || kRule == SafetyRule::kConfirmationInRange) {
         return Shown<extension::FaultAt<kTable, kTable.confirmations[kRow].fault>>{};
+    } else if constexpr (kRule == SafetyRule::kTestedOnce || kRule == SafetyRule::kTestHasSteps) {
+        return Shown<extension::FaultAt<kTable, kTable.self_tests[kRow].fault>>{};
     } else if constexpr (kRule == SafetyRule::kFaultsNumbered) {
         return Shown<extension::FaultAt<kTable, kRow>>{};
     } else {

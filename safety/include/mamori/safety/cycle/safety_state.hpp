@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/safety/assumptions/assumption_monitor.hpp"
@@ -15,6 +16,7 @@
 #include "mamori/safety/cycle/safety_part.hpp"
 #include "mamori/safety/cycle/safety_rules.hpp"
 #include "mamori/safety/redundancy/complement_stored.hpp"
+#include "mamori/safety/self_test/schedule.hpp"
 
 namespace mamori::safety {
 
@@ -45,6 +47,14 @@ constexpr CheckpointSupervisor* find_checkpoints(const Table& table) noexcept {
     return nullptr;
 }
 
+/// A schedule for each check: each keeps its own time and continues when another has failed.
+template <std::size_t kCount, std::size_t... kIndices>
+constexpr std::array<SelfTestSchedule, kCount> make_schedules(
+    [[maybe_unused]] const std::array<SelfTestRow, kCount>& rows,
+    std::index_sequence<kIndices...> /*indices*/) noexcept {
+    return {{SelfTestSchedule{{&rows[kIndices].check, 1U}, Duration{rows[kIndices].found_within.ns / 2}}...}};
+}
+
 }  // namespace detail
 
 /// Memory for the table `kTable` of safety::system(), in static storage.
@@ -53,6 +63,8 @@ struct SafetyStorage {
     static_assert(keeps_safety_rules<kTable>());
     ExecutionStorageFor<kTable> execution{};
     std::array<FaultRecord, kTable.faults.size()> faults{};
+    std::array<SelfTestSchedule, kTable.self_tests.size()> self_tests{
+        detail::make_schedules(kTable.self_tests, std::make_index_sequence<kTable.self_tests.size()>{})};
 };
 
 /// All state of one safety cycle. A component of the table can refer to one that is declared before the table
@@ -80,6 +92,9 @@ class SafetyState final {
           reactions_(kTable.reactions),
           stop_sources_(detail::find_stop_sources(kTable)),
           checkpoints_(detail::find_checkpoints(kTable)),
+          self_tests_(kTable.self_tests),
+          schedules_(storage.self_tests),
+          period_(kTable.windows[detail::kCycleWindow<kTable>].period),
           faults_(storage.faults),
           machine_(kTable.cycle.stops),
           brakes_(kTable.cycle.brakes),
@@ -93,6 +108,10 @@ class SafetyState final {
     const ExecutionSupervisor& get_supervision() const noexcept { return supervision_; }
     const FaultRegister& get_faults() const noexcept { return faults_; }
     SafeState get_state() const noexcept { return machine_.get_state(); }
+    /// Schedules of the self tests of the table, in its order.
+    Span<const SelfTestSchedule> get_self_tests() const noexcept {
+        return {schedules_.data(), schedules_.size()};
+    }
     /// Supervision of the cycle itself.
     DecisionFlow& get_flow() noexcept { return flow_; }
 
@@ -107,6 +126,9 @@ class SafetyState final {
     Span<const ReactionRow> reactions_;
     std::array<std::size_t, kStopConfirmationCount> stop_sources_;
     CheckpointSupervisor* checkpoints_;
+    Span<const SelfTestRow> self_tests_;
+    Span<SelfTestSchedule> schedules_;
+    Duration period_;  ///< of the safety cycle
     /// With its complement: it decides when the watchdog has to switch off what the software cannot.
     ComplementStored<Duration> torque_despite_sto_for_{Duration{0}};
     FaultRegister faults_;

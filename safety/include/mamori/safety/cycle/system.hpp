@@ -36,6 +36,7 @@ struct SafetySystem : DescribedSystem<PartTypes> {
     std::array<SuperviseRow, extension::kPartCount<SuperviseTag, PartTypes>> supervised{};
     std::array<ConfirmRow, extension::kPartCount<ConfirmTag, PartTypes>> confirmations{};
     std::array<StopSourceRow, extension::kPartCount<StopSourceTag, PartTypes>> stop_sources{};
+    std::array<SelfTestRow, extension::kPartCount<SelfTestTag, PartTypes>> self_tests{};
     CycleRow cycle{};
 };
 
@@ -65,6 +66,16 @@ constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
         next += row.port != nullptr ? 1U : 0U;
     }
     builder.table.stop_sources[next] = part.row;
+}
+
+template <typename Types, typename Fault>
+constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
+                        const SelfTestPart<Fault>& part) noexcept {
+    std::size_t next = 0U;
+    for (const SelfTestRow& row : builder.table.self_tests) {
+        next += row.check != nullptr ? 1U : 0U;
+    }
+    builder.table.self_tests[next] = part.row;
 }
 template <typename Types, typename... Faults>
 constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,

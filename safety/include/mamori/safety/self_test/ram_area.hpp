@@ -22,26 +22,26 @@ class RamArea final {
 
     /// @param[in] first lowest address, a multiple of the size of a word; not nullptr.
     /// @param[in] size  number of words, >= 1.
-    RamArea(void* first, std::size_t size) noexcept : first_(static_cast<Cell*>(first)), size_(size) {
+    constexpr RamArea(void* first, std::size_t size) noexcept : first_(first), size_(size) {
         MAMORI_REQUIRE(1, first != nullptr && size >= 1U);
     }
 
-    std::size_t size() const noexcept { return size_; }
+    constexpr std::size_t size() const noexcept { return size_; }
     /// @param[in] index 0 .. size() - 1; anything else is an own bug and ends in the assertion handler.
     Word read(std::size_t index) const noexcept {
         MAMORI_REQUIRE(2, index < size_);
-        return first_[index];
+        return static_cast<Cell*>(first_)[index];
     }
     void write(std::size_t index, Word value) noexcept {
         MAMORI_REQUIRE(3, index < size_);
-        first_[index] = value;
+        static_cast<Cell*>(first_)[index] = value;
     }
 
   private:
     // Volatile: each access is one. may_alias: whatever lives there is of another type.
     using Cell [[gnu::may_alias]] = volatile Word;
 
-    Cell* first_;
+    void* first_;
     std::size_t size_;
 };
 
