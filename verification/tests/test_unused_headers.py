@@ -9,7 +9,7 @@ import pytest
 
 from mamori_tools.host.project import ROOT
 from verification.checks.check_layers import main
-from verification.checks.unused_headers import HEADING, PAGE, check_unused, find_used
+from verification.checks.unused_headers import HEADING, LIMIT, PAGE, check_unused, find_used
 
 FILES = {
     "examples/safe_arm/arm.cpp": '#include "arm.hpp"\n',
@@ -73,6 +73,26 @@ def test_a_wrong_row_is_found_with_its_line(root: Path, rows: str, line: int, me
 
     assert number == line
     assert text.startswith(message)
+
+
+def list_headers(root: Path, count: int) -> str:
+    """@return rows of voter.hpp and of as many new headers as make `count` rows."""
+    names = [f"mamori/safety/unused_{number}.hpp" for number in range(1, count)]
+    for name in names:
+        (root / "safety/include" / name).write_text("", encoding="utf-8")
+    return ROW + "".join(f"| `{name}` | Not needed |\n" for name in names)
+
+
+@pytest.mark.verifies("SWR-PRF-051", technique="boundary_values")
+def test_a_list_of_twelve_headers_is_accepted(root: Path) -> None:
+    assert LIMIT == 12
+    assert check(root, list_headers(root, 12)) == []
+
+
+@pytest.mark.verifies("SWR-PRF-051", technique="boundary_values", polarity="violation")
+def test_a_list_of_thirteen_headers_is_too_long(root: Path) -> None:
+    message = "13 headers that the example arm does not use; the limit is 12: use a header in the example, or remove it"
+    assert check(root, list_headers(root, 13)) == [(3, message)]
 
 
 @pytest.mark.verifies("SWR-PRF-051", technique="fault_injection", polarity="violation")
