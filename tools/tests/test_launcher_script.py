@@ -71,7 +71,8 @@ def test_second_run_installs_nothing(box: Box) -> None:
      (("table", "t.json", "--text"), "python3-venv", "graphviz"), (("table", "t.json", "--out", "d"), "graphviz", "cmake"),
      (("trace", "check"), "python3-venv", "git"), (("trace", "impact", "HEAD"), "git", "cmake"),
      (("trace", "verify", "b.tar"), "openssh-client", "cmake"), (("test",), "openssh-client", "strace"),
-     (("test",), "liblcm-bin", "libboost-dev"), (("verify",), "liblcm-dev", "cppcheck"), (("build",), "cmake", "liblcm-dev")],
+     (("test",), "liblcm-bin", "libboost-dev"), (("verify",), "liblcm-dev", "cppcheck"), (("build",), "cmake", "liblcm-dev"),
+     (("hil",), "iproute2", "cmake"), (("test",), "liblcm-dev", "iproute2")],
 )  # fmt: skip
 def test_each_command_needs_its_groups_only(box: Box, words: tuple[str, ...], wanted: str, unwanted: str) -> None:
     box.run("--install", *words)

@@ -50,7 +50,7 @@ STORE: dict[str, dict[str, str]] = {
         "cmake": "cmake", "ninja-build": "ninja", "valgrind": "valgrind", "cppcheck": "cppcheck", "chromium": "chromium",
         "stress-ng": "stress-ng", "spin": "spin", "z3": "z3", "git": "git", "clang-tidy-19": "run-clang-tidy-19",
         "clang-format-19": "clang-format-19", "llvm-19": "llvm-cov-19", "qemu-system-arm": "qemu-system-arm", "graphviz": "dot",
-        "openssh-client": "ssh-keygen", "liblcm-bin": "lcm-gen", "cyclonedds-tools": "idlc", "rt-tests": "cyclictest"}.items()},
+        "openssh-client": "ssh-keygen", "liblcm-bin": "lcm-gen", "iproute2": "ip", "cyclonedds-tools": "idlc", "rt-tests": "cyclictest"}.items()},
     **{name: {f"share/{name}": ""} for name in ("libclang-rt-19-dev", "libstdc++-arm-none-eabi-newlib")},
     **{name: {f"include/{header}": ""} for name, header in {
         "libsimbody-dev": "simbody/Simbody.h", "liborocos-kdl-dev": "kdl/chain.hpp", "libeigen3-dev": "eigen3/Eigen/Core",
