@@ -15,7 +15,7 @@ enum class Memory : FaultIndex { kLate, kStartUp, kBrake, kConstants, kData };
 constexpr std::int64_t kPassMax = 20;  ///< cycles, half of the stated time
 constexpr Duration kFound{2 * kPassMax * kFrame.ns};
 
-/// Steps as a test writes them, or those of another check.
+/// Results that the test states step by step, or the steps of another check.
 class Check final : public SelfTest {
   public:
     void begin() noexcept override {
@@ -108,7 +108,7 @@ struct Machine {
     bool is_latched(Memory fault) const {
         return state.get_faults().is_latched(static_cast<FaultIndex>(fault));
     }
-    /// @return cycles from here to the one that latches the fault; 3 passes if there is none.
+    /// @return number of cycles until the fault is latched; 3 passes if no fault is latched.
     std::int64_t count_until_latched(Memory fault) {
         for (std::int64_t i = 1; i < 3 * kPassMax; ++i) {
             step();

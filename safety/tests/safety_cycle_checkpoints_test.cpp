@@ -79,7 +79,7 @@ class CheckpointsTest : public ::testing::Test {
         const Entity entity = point == Point::kLog ? Entity::kLogger : Entity::kController;
         g_points.storage.get_log(entity).report(point, now_ + after);
     }
-    /// Runs all components; each passes its checkpoints, unless the test reports those of the controller.
+    /// Runs all components. Each reports its checkpoints; the test can replace the controller's reports.
     SafeState step(bool is_controller_correct = true) {
         for (std::size_t i = 0U; i < kChecked.components.size(); ++i) {
             state_.get_observer().get_records()[i].note_run(now_, now_ + 100_us);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: supervision expects a component in the modes that run it, and in no other. Method: a machine with a
-// safety cycle and modes in virtual time; the switches are those of the kernel.
+// safety cycle and modes in virtual time; the kernel switches the modes.
 #include <gtest/gtest.h>
 
 #include "mamori/kernel/run/system_modes.hpp"

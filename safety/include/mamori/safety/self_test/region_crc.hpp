@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Checks that a region which nobody may write, code or constants, still is what was built: its CRC-32
-/// against the one that the build wrote down, or against that of the first pass.
+/// against the checksum of the build, or against that of the first pass.
 ///
 /// @satisfies SWR-SLF-007, SWR-CYC-024      Design: docs/design/self_tests.md#code-and-constants
 /// Source:   IEC 61508-7:2010 A.4 (signature of invariable memory)
