@@ -69,6 +69,12 @@ function(mamori_install_target target component)
     install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
+# Test sources run once or a few times: -O2 would cost more at compile time (about a quarter) than it gives at run time. What they
+# link is optimised as users get it.
+function(mamori_test_optimisation target)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # Compiles gtest.h once for all test programs: reading it costs each test file half a second. Not with a compiler launcher, since
 # ccache keeps the objects anyway, and misses them with precompiled headers.
 function(mamori_precompile_gtest target)
@@ -78,27 +84,38 @@ function(mamori_precompile_gtest target)
     if(NOT TARGET mamori_gtest_prefix)
         add_library(mamori_gtest_prefix OBJECT "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/gtest_prefix.cpp")
         mamori_common_flags(mamori_gtest_prefix)
+        mamori_test_optimisation(mamori_gtest_prefix)
         target_link_libraries(mamori_gtest_prefix PRIVATE GTest::gtest)
         target_precompile_headers(mamori_gtest_prefix PRIVATE <gtest/gtest.h>)
     endif()
     target_precompile_headers(${target} REUSE_FROM mamori_gtest_prefix)
 endfunction()
 
-# mamori_test(<name> SOURCES ... DEPENDS ...)
+# mamori_test(<name> [LONG pattern] SOURCES ... DEPENDS ...)
 #   one GoogleTest program; ctest runs it and its JUnit file goes to <build>/evidence/junit/<name>.xml.
+#   LONG: tests that take seconds (a filter of GoogleTest). They are <name>_long in ctest, with the label `long`: quick and
+#   sanitized runs leave them out.
 function(mamori_test name)
-    cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+    cmake_parse_arguments(arg "" "LONG" "SOURCES;DEPENDS" ${ARGN})
     if(NOT MAMORI_BUILD_TESTS)
         return()
     endif()
     find_package(GTest REQUIRED)
     add_executable(${name} ${arg_SOURCES})
     mamori_common_flags(${name})
+    mamori_test_optimisation(${name})
     target_link_libraries(${name} PRIVATE ${arg_DEPENDS} GTest::gtest GTest::gtest_main)
     target_link_libraries(${name} PRIVATE mamori::verifies)
     mamori_precompile_gtest(${name})
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/verification/support/include)
-    add_test(NAME ${name} COMMAND ${name} --gtest_output=xml:${PROJECT_BINARY_DIR}/evidence/junit/${name}.xml)
+    set(output "--gtest_output=xml:${PROJECT_BINARY_DIR}/evidence/junit/${name}")
+    if(arg_LONG)
+        add_test(NAME ${name} COMMAND ${name} --gtest_filter=-${arg_LONG} ${output}.xml)
+        add_test(NAME ${name}_long COMMAND ${name} --gtest_filter=${arg_LONG} ${output}_long.xml)
+        set_tests_properties(${name}_long PROPERTIES TIMEOUT 600 LABELS long)
+    else()
+        add_test(NAME ${name} COMMAND ${name} ${output}.xml)
+    endif()
     set_tests_properties(${name} PROPERTIES TIMEOUT 600)
 endfunction()
 
