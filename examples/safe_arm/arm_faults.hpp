@@ -35,11 +35,12 @@ enum class ArmFault : std::uint16_t {
     kSwitchDiscrepancy,   ///< the channels of a switch differ for too long
     kProtectiveStop,      ///< the protective stop is open while torque is on
     kMovementAtRest,      ///< the arm moves without torque, behind closed brakes
-    kEnableLost,          ///< the enabling device or the hold-to-run button is released while torque is on
+    kEnableLost,          ///< the enabling device is released while torque is on
     kEnablingSqueezed,    ///< the enabling device is squeezed
-    kModeSelector,        ///< the mode was changed, or the selector shows no mode
+    kModeSelector,        ///< the selector shows another mode than that of the system, or none
     kClockDeviation,      ///< the clocks of processor and drives run at different rates
     kPositionDoubtful,    ///< torque or reference switch contradicts both encoder channels
+    kRunReleased,         ///< the hold-to-run button is released while torque is on
     kCount,               ///< number of faults
 };
 inline constexpr auto kArmFaultCount = static_cast<std::size_t>(ArmFault::kCount);
@@ -53,7 +54,7 @@ constexpr std::uint32_t to_bit(ArmFault fault) noexcept {
 
 /// Faults that need no reset without torque: there, they only prevent the start.
 inline constexpr std::uint32_t kPermissions =
-    to_bit(ArmFault::kProtectiveStop) | to_bit(ArmFault::kEnableLost);
+    to_bit(ArmFault::kProtectiveStop) | to_bit(ArmFault::kEnableLost) | to_bit(ArmFault::kRunReleased);
 
 /// Spelling of a fault in logs and reports, indexed by its number.
 inline constexpr std::array<const char*, kArmFaultCount> kArmFaultNames{
@@ -61,7 +62,8 @@ inline constexpr std::array<const char*, kArmFaultCount> kArmFaultNames{
     "PositionLimit",      "TorqueDeviation",    "ControllerSilent",  "CommandStale",   "PowerLost",
     "BrakeFault",         "SelfTestFailed",     "MeasurementStale",  "ReactionLate",   "BrakeTestOld",
     "StopNotFollowed",    "EmergencyStop",      "SwitchDiscrepancy", "ProtectiveStop", "MovementAtRest",
-    "EnableLost",         "EnablingSqueezed",   "ModeSelector",      "ClockDeviation", "PositionDoubtful"};
+    "EnableLost",         "EnablingSqueezed",   "ModeSelector",      "ClockDeviation", "PositionDoubtful",
+    "RunReleased"};
 
 }  // namespace safe_arm
 

@@ -18,7 +18,7 @@ Status ArmReader::configure(const EncoderScale& scale) noexcept {
 }
 
 Status ArmReader::on_activated(ContextHandle) noexcept {
-    return is_configured_ ? Status::kOk : Status::kPreconditionNotMet;
+    return is_configured_ && modes_ != nullptr ? Status::kOk : Status::kPreconditionNotMet;
 }
 
 Status ArmReader::on_execute(ContextHandle context) noexcept {
@@ -38,11 +38,15 @@ Status ArmReader::on_execute(ContextHandle context) noexcept {
     result.power_good = inputs_.power_good;
     result.reference_closed = inputs_.reference_closed;
     result.drive_clock_ns = inputs_.drive_clock_ns;
-    const PanelState panel = panel_.step(inputs_, context.now);
+    result.mode = modes_->get_mode<OperatingMode>();
+    const PanelState panel = panel_.step(inputs_, result.mode, context.now);
+    if (panel.selected != result.mode) {
+        // One that is rejected, for instance during a switch, is repeated. The fault remains until then.
+        static_cast<void>(modes_->request(panel.selected));
+    }
     result.start_button = panel.start;
     result.reset_button = panel.reset;
     result.panel_faults = panel.faults;
-    result.mode = panel.mode;
     reading.write(result);
     return Status::kOk;
 }

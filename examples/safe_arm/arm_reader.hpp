@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Turns the process image of the arm into physical units, and evaluates the operator panel. First component
-/// of the protecting window.
+/// Turns the process image of the arm into physical units, evaluates the operator panel, and requests the
+/// mode that its selector shows. First component of the protecting window.
 ///
-/// @satisfies SWR-SAF-004      Design: docs/design/safe_arm.md#components
+/// @satisfies SWR-SAF-004, SWR-SAF-061      Design: docs/design/safe_arm.md#components
 #ifndef EXAMPLES_SAFE_ARM_ARM_READER_HPP
 #define EXAMPLES_SAFE_ARM_ARM_READER_HPP
 
+#include "mamori/kernel/run/system_modes.hpp"
 #include "mamori/kernel/system/system.hpp"
 #include "mamori/safety/arm/arm_device.hpp"
 #include "messages.hpp"
@@ -32,7 +33,11 @@ class ArmReader final : public mamori::Component {
     /// @return kOk; kBadParameter (a resolution that is not positive: nothing is taken over).
     mamori::Status configure(const EncoderScale& scale) noexcept;
 
-    /// @return kOk; kPreconditionNotMet (not configured), which keeps the system from starting.
+    /// Before the start. @param[in] modes of the table that runs this component; static storage.
+    void set_modes(mamori::SystemModes& modes) noexcept { modes_ = &modes; }
+
+    /// @return kOk; kPreconditionNotMet (not configured, or without modes), which keeps the system from
+    /// starting.
     mamori::Status on_activated(mamori::ContextHandle context) noexcept override;
     mamori::Status on_execute(mamori::ContextHandle context) noexcept override;
 
@@ -40,6 +45,7 @@ class ArmReader final : public mamori::Component {
     const mamori::safety::ArmInputs& inputs_;
     EncoderScale scale_{};
     OperatorPanel panel_{};
+    mamori::SystemModes* modes_{nullptr};
     bool is_configured_{false};
 };
 

@@ -1,19 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Safety part of each system table of the example: faults with confirmation, reactions, stops, brakes and
-/// watchdog. Each table adds the supervision of its components.
+/// Safety part of each system table of the example: modes, faults with confirmation, reactions, stops, brakes
+/// and watchdog. Each table adds the supervision of its components.
 ///
-/// @satisfies SWR-SAF-002, SWR-SAF-020      Design: docs/design/safe_arm.md#reactions
+/// @satisfies SWR-SAF-002, SWR-SAF-020, SWR-SAF-061, SWR-SAF-063      Design:
+/// docs/design/safe_arm.md#reactions
 #ifndef EXAMPLES_SAFE_ARM_ARM_SAFETY_HPP
 #define EXAMPLES_SAFE_ARM_ARM_SAFETY_HPP
 
 #include "arm_faults.hpp"
 #include "arm_limits.hpp"
 #include "mamori/safety/cycle/safety_rules.hpp"
+#include "messages.hpp"
 
 namespace safe_arm {
 
 using mamori::safety::Reaction;
+
+/// All components run in each mode: a switch deactivates none.
+template <typename... Components>
+constexpr auto make_arm_modes(Components&... components) noexcept {
+    using Mode = OperatingMode;
+    const auto all = mamori::runs(components...);
+    return mamori::parts(mamori::system_mode<Mode::kHoldToRun>("hold_to_run", all),
+                         mamori::system_mode<Mode::kReducedSpeed>("reduced_speed", all),
+                         mamori::system_mode<Mode::kAutomatic>("automatic", all),
+                         mamori::safe_mode<Mode::kSwitchFailed>("switch_failed", all),
+                         mamori::mode_transition("hold_to_run", Mode::kReducedSpeed, "reduced_speed"),
+                         mamori::mode_transition("hold_to_run", Mode::kAutomatic, "automatic"),
+                         mamori::mode_transition("reduced_speed", Mode::kHoldToRun, "hold_to_run"),
+                         mamori::mode_transition("reduced_speed", Mode::kAutomatic, "automatic"),
+                         mamori::mode_transition("automatic", Mode::kHoldToRun, "hold_to_run"),
+                         mamori::mode_transition("automatic", Mode::kReducedSpeed, "reduced_speed"));
+}
+
+inline constexpr auto kInAutomatic = mamori::in_modes<OperatingMode::kAutomatic>();
+inline constexpr auto kWithEnabling =
+    mamori::in_modes<OperatingMode::kHoldToRun, OperatingMode::kReducedSpeed, OperatingMode::kSwitchFailed>();
+inline constexpr auto kWithRunButton =
+    mamori::in_modes<OperatingMode::kHoldToRun, OperatingMode::kSwitchFailed>();
+inline constexpr auto kWithoutRunButton =
+    mamori::in_modes<OperatingMode::kReducedSpeed, OperatingMode::kAutomatic>();
 
 /// Times are from the confirmed fault to the start of its reaction. STO always comes with closed brakes.
 inline constexpr auto kArmReactions = mamori::parts(
@@ -25,7 +52,7 @@ inline constexpr auto kArmReactions = mamori::parts(
                    ArmFault::kStopNotFollowed, ArmFault::kEmergencyStop, ArmFault::kSwitchDiscrepancy,
                    ArmFault::kProtectiveStop, ArmFault::kMovementAtRest, ArmFault::kEnableLost,
                    ArmFault::kEnablingSqueezed, ArmFault::kModeSelector, ArmFault::kClockDeviation,
-                   ArmFault::kPositionDoubtful>(),
+                   ArmFault::kPositionDoubtful, ArmFault::kRunReleased>(),
     mamori::react(ArmFault::kEncoderImplausible, Reaction::kSs1, mamori::within(2_ms)),
     mamori::react(ArmFault::kEncoderDiscrepancy, Reaction::kSto, mamori::within(2_ms)),
     mamori::react(ArmFault::kEncoderStuck, Reaction::kSto, mamori::within(2_ms)),
@@ -46,8 +73,12 @@ inline constexpr auto kArmReactions = mamori::parts(
     mamori::react(ArmFault::kSwitchDiscrepancy, Reaction::kSs1, mamori::within(2_ms)),
     mamori::react(ArmFault::kProtectiveStop, Reaction::kSs2, mamori::within(2_ms)),
     mamori::react(ArmFault::kMovementAtRest, Reaction::kSto, mamori::within(2_ms)),
-    mamori::react(ArmFault::kEnableLost, Reaction::kSs2, mamori::within(2_ms)),
-    mamori::react(ArmFault::kEnablingSqueezed, Reaction::kSs1, mamori::within(2_ms)),
+    mamori::react(ArmFault::kEnableLost, Reaction::kSs2, mamori::within(2_ms), kWithEnabling),
+    mamori::react(ArmFault::kEnableLost, Reaction::kNone, mamori::within(2_ms), kInAutomatic),
+    mamori::react(ArmFault::kEnablingSqueezed, Reaction::kSs1, mamori::within(2_ms), kWithEnabling),
+    mamori::react(ArmFault::kEnablingSqueezed, Reaction::kNone, mamori::within(2_ms), kInAutomatic),
+    mamori::react(ArmFault::kRunReleased, Reaction::kSs2, mamori::within(2_ms), kWithRunButton),
+    mamori::react(ArmFault::kRunReleased, Reaction::kNone, mamori::within(2_ms), kWithoutRunButton),
     mamori::react(ArmFault::kModeSelector, Reaction::kSs1, mamori::within(2_ms)),
     // The ramp of SS1 takes its time from the clock, and its position from the encoders.
     mamori::react(ArmFault::kClockDeviation, Reaction::kSto, mamori::within(2_ms)),

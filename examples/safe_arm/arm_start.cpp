@@ -56,6 +56,7 @@ std::string prepare_system(const mamori::sim::ArmModel& model, const MotionTrack
     if (reader.configure(get_encoder_scale(model)) != Status::kOk) {
         return "the system was prepared before";
     }
+    reader.set_modes(modes);
     executive.set_observer(&safety_state.get_observer());
     return {};
 }

@@ -19,11 +19,13 @@ namespace safe_arm {
 using mamori::safety::JointVector;
 using mamori::safety::kArmJointCount;
 
-/// Set by the mode selector. In all modes but kAutomatic, the arm is slow and needs the enabling device.
+/// Modes of the system table, and the events that request them. In all modes but kAutomatic, the arm is slow
+/// and needs the enabling device. The system starts in the strictest mode.
 enum class OperatingMode : std::uint8_t {
-    kAutomatic,
-    kReducedSpeed,
     kHoldToRun,  ///< needs the hold-to-run button, too
+    kReducedSpeed,
+    kAutomatic,
+    kSwitchFailed,  ///< safe mode: a mode switch failed, and the arm does not start
 };
 
 /// Device image in physical units, and what the operator demands. Nothing else is checked yet.
@@ -40,8 +42,8 @@ struct JointReading {
     bool reset_button{false};                             ///< likewise
     std::array<bool, kArmJointCount> reference_closed{};  ///< the joint angle is positive
     std::int64_t drive_clock_ns{0};                       ///< 0: no sample yet
-    OperatingMode mode{OperatingMode::kAutomatic};
-    std::uint32_t panel_faults{0U};  ///< of the operator panel; bit n = ArmFault n
+    OperatingMode mode{OperatingMode::kHoldToRun};        ///< of the system, in this frame
+    std::uint32_t panel_faults{0U};  ///< of the operator panel in any mode; bit n = ArmFault n
 };
 
 /// What the monitor vouches for, and the faults it sees in this cycle (bit n = ArmFault n).
@@ -79,7 +81,7 @@ struct StopCommand {
     bool relay_close{false};     ///< second switch-off path
     TorqueSource torque_source{TorqueSource::kController};
     double brake_test_share{0.0};  ///< of the torque limit, -1 .. 1
-    OperatingMode mode{OperatingMode::kAutomatic};
+    OperatingMode mode{OperatingMode::kHoldToRun};
 };
 
 /// What the drive gate gave to the drives.

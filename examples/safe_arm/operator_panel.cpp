@@ -6,6 +6,9 @@
 namespace safe_arm {
 namespace {
 
+constexpr std::array<OperatingMode, 3U> kModeOfContact{
+    OperatingMode::kAutomatic, OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun};
+
 /// One frame of a switch. @return its faults.
 std::uint32_t evaluate(TwoChannelSwitch& channels, const std::array<bool, 2U>& is_closed, ArmFault demand,
                        bool is_reset, mamori::Instant now) noexcept {
@@ -52,22 +55,19 @@ bool PushButton::step(bool is_pushed, Instant now) noexcept {
     return is_deliberate;
 }
 
-bool ModeSelector::step(const std::array<bool, 3U>& is_selected, Instant now) noexcept {
+OperatingMode ModeSelector::step(const std::array<bool, 3U>& is_selected, OperatingMode mode,
+                                 Instant now) noexcept {
     std::size_t count = 0U;
-    OperatingMode shown = mode_;
+    OperatingMode shown = mode;
     for (std::size_t i = 0U; i < is_selected.size(); ++i) {
         count += is_selected[i] ? 1U : 0U;
-        shown = is_selected[i] ? static_cast<OperatingMode>(i) : shown;
+        shown = is_selected[i] ? kModeOfContact[i] : shown;
     }
-    const bool is_shown = count == 1U;
-    const bool has_failed = timer_.step(!is_shown, now) == Discrepancy::kLatched;
-    const bool has_changed = is_shown && is_known_ && shown != mode_;
-    mode_ = is_shown ? shown : mode_;
-    is_known_ = is_known_ || is_shown;
-    return has_changed || has_failed;
+    static_cast<void>(timer_.step(count != 1U, now));
+    return count == 1U ? shown : mode;
 }
 
-PanelState OperatorPanel::step(const ArmInputs& inputs, Instant now) noexcept {
+PanelState OperatorPanel::step(const ArmInputs& inputs, OperatingMode mode, Instant now) noexcept {
     PanelState result{};
     result.start = start_.step(inputs.start_button, now);
     result.reset = reset_.step(inputs.reset_button, now);
@@ -75,21 +75,16 @@ PanelState OperatorPanel::step(const ArmInputs& inputs, Instant now) noexcept {
         evaluate(emergency_stop_, inputs.emergency_stop_closed, ArmFault::kEmergencyStop, result.reset, now);
     result.faults |= evaluate(protective_stop_, inputs.protective_stop_closed, ArmFault::kProtectiveStop,
                               result.reset, now);
-    const std::uint32_t enabling =
-        evaluate(enabling_, inputs.enabling_closed, ArmFault::kEnableLost, result.reset, now);
+    result.faults |= evaluate(enabling_, inputs.enabling_closed, ArmFault::kEnableLost, result.reset, now);
+    result.faults |= inputs.enabling_squeezed ? to_bit(ArmFault::kEnablingSqueezed) : 0U;
+    result.faults |= inputs.run_button ? 0U : to_bit(ArmFault::kRunReleased);
     if (result.reset) {
         selector_.acknowledge();  // a mode that is still not shown is a fault again after its time
     }
-    const bool has_mode_fault = selector_.step(inputs.mode_selected, now);
-    result.mode = selector_.get_mode();
-    result.faults |= has_mode_fault ? to_bit(ArmFault::kModeSelector) : 0U;
-    if (result.mode == OperatingMode::kAutomatic) {
-        result.faults |= enabling & ~to_bit(ArmFault::kEnableLost);
-        return result;
-    }
-    const bool is_run_released = result.mode == OperatingMode::kHoldToRun && !inputs.run_button;
-    result.faults |= enabling | (is_run_released ? to_bit(ArmFault::kEnableLost) : 0U) |
-                     (inputs.enabling_squeezed ? to_bit(ArmFault::kEnablingSqueezed) : 0U);
+    result.selected = selector_.step(inputs.mode_selected, mode, now);
+    const bool is_mode_doubtful =
+        result.selected != mode || mode == OperatingMode::kSwitchFailed || selector_.has_failed();
+    result.faults |= is_mode_doubtful ? to_bit(ArmFault::kModeSelector) : 0U;
     return result;
 }
 

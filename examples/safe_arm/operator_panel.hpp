@@ -52,8 +52,8 @@ class PushButton final {
 
 /// What the operator demands in one frame.
 struct PanelState {
-    OperatingMode mode{OperatingMode::kAutomatic};
-    std::uint32_t faults{0U};  ///< bit n = ArmFault n
+    OperatingMode selected{OperatingMode::kHoldToRun};
+    std::uint32_t faults{0U};  ///< in any mode; bit n = ArmFault n
     bool start{false};         ///< a push of the start button ends
     bool reset{false};         ///< a push of the reset button ends
 };
@@ -61,22 +61,23 @@ struct PanelState {
 /// Selector with one contact per mode. Thread safety: none. Time: O(modes).
 class ModeSelector final {
   public:
-    /// One frame. @return true if the mode changes in this frame, or has not been shown for longer than
-    /// kSwitchDiscrepancyTime: between two modes, no contact is closed. The first mode is no change.
-    bool step(const std::array<bool, 3U>& is_selected, mamori::Instant now) noexcept;
-    OperatingMode get_mode() const noexcept { return mode_; }
+    /// One frame. @param[in] mode in effect. @return the mode that is shown; `mode` if none is: between two
+    /// modes, no contact is closed.
+    OperatingMode step(const std::array<bool, 3U>& is_selected, OperatingMode mode,
+                       mamori::Instant now) noexcept;
+    /// No mode was shown for longer than kSwitchDiscrepancyTime, and this is not acknowledged.
+    bool has_failed() const noexcept { return timer_.get() == mamori::safety::Discrepancy::kLatched; }
     void acknowledge() noexcept { static_cast<void>(timer_.acknowledge()); }
 
   private:
     mamori::safety::DiscrepancyTimer timer_{kSwitchDiscrepancyTime};
-    OperatingMode mode_{OperatingMode::kHoldToRun};  ///< until one is shown
-    bool is_known_{false};
 };
 
 class OperatorPanel final {
   public:
-    /// One frame.
-    PanelState step(const mamori::safety::ArmInputs& inputs, mamori::Instant now) noexcept;
+    /// One frame. @param[in] mode in effect.
+    PanelState step(const mamori::safety::ArmInputs& inputs, OperatingMode mode,
+                    mamori::Instant now) noexcept;
 
   private:
     TwoChannelSwitch emergency_stop_{};

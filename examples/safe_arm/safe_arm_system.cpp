@@ -40,7 +40,9 @@ DriveGate gate{outputs};
 
 static constexpr auto kSafeArm = mamori::safety::system(
     mamori::frame(kFrame), mamori::trace_hash(), make_arm_safety(kLatenessMax),
-    make_arm_self_check(self_check), supervise(reader, alive(), deadline(kSafetyComponentMax)),
+    make_arm_self_check(self_check),
+    make_arm_modes(reader, monitor, supervisor, controller, command_sender, channel, command_receiver, gate),
+    supervise(reader, alive(), deadline(kSafetyComponentMax)),
     supervise(monitor, alive(), deadline(kSafetyComponentMax)),
     supervise(supervisor, alive(), deadline(kSafetyComponentMax)),
     supervise(command_receiver, alive(), deadline(kSafetyComponentMax)),
@@ -82,6 +84,7 @@ constexpr std::size_t kLastWindow = mamori::index_of(kSafeArm, "act");
 
 static mamori::ports::virtual_time::Machine<kSafeArm> machine_of_table;
 mamori::Executive& executive = machine_of_table.get_executives().get(0U);
+mamori::SystemModes& modes = machine_of_table.get_executives().get_modes();
 mamori::ports::virtual_time::VirtualHost& virtual_host = machine_of_table.get_host_of<0U>();
 mamori::ports::virtual_time::MachineBase& simulation = machine_of_table;
 static mamori::IntrospectionFor introspection_of_table{kSafeArm};

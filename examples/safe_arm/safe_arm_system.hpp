@@ -53,6 +53,8 @@ extern DriveGate gate;
 
 /// Runs the static table, which is in safe_arm_system.cpp.
 extern mamori::Executive& executive;
+/// Operating modes of the same table.
+extern mamori::SystemModes& modes;
 /// Of the same table; shows nothing until it is attached to the executive.
 extern mamori::Introspection& introspection;
 /// Simulates it in virtual time.

@@ -34,8 +34,19 @@ TorqueSource choose_source(SafeState state) noexcept {
 
 }  // namespace
 
+/// The modes differ in the controls that they need: the table answers the other ones with no reaction.
+std::uint32_t SafetySupervisor::find_panel_faults(const JointReading& now) const noexcept {
+    std::uint32_t faults = 0U;
+    for (FaultIndex fault = 0U; fault < kArmFaultCount; ++fault) {
+        const std::uint32_t bit = now.panel_faults & (std::uint32_t{1U} << fault);
+        faults |= bit != 0U && is_answered(fault, static_cast<std::size_t>(now.mode)) ? bit : 0U;
+    }
+    return faults;
+}
+
 CycleInputs SafetySupervisor::read_inputs(Instant at) noexcept {
     const JointReading& now = reading.read();
+    panel_faults_ = find_panel_faults(now);
     is_brake_test_old_ = is_over(brakes_tested_at_.read().get_value(), at, kBrakeTestInterval) ||
                          !brakes_tested_at_.read().has_value();
     CycleInputs inputs{};
@@ -48,7 +59,8 @@ CycleInputs SafetySupervisor::read_inputs(Instant at) noexcept {
     inputs.reset_button = now.reset_button || ends_hold;
     has_ended_hold_ = ends_hold;
     inputs.may_start =
-        arm_state.read().is_setpoint_near && arm_state.read().is_clock_checked && now.panel_faults == 0U;
+        arm_state.read().is_setpoint_near && arm_state.read().is_clock_checked && panel_faults_ == 0U;
+    inputs.mode = static_cast<std::size_t>(now.mode);
     // By the gate. One valid encoder channel suffices; an unknown position demands STO.
     inputs.can_hold = true;
     const TorqueSource source = drive.read().source;
@@ -78,7 +90,10 @@ bool SafetySupervisor::is_present(FaultIndex fault) noexcept {
         // A stopped machine tests its brakes again after a reset; the fault must not refuse that reset.
         return is_brake_test_old_ && get_state() != SafeState::kSafe && get_state() != SafeState::kSelfTest;
     }
-    std::uint32_t faults = arm_state.read().faults | reading.read().panel_faults;
+    if (fault == to_index(ArmFault::kModeSelector) && get_state() == SafeState::kSelfTest) {
+        return false;  // the system follows the selector there, and cannot start
+    }
+    std::uint32_t faults = arm_state.read().faults | panel_faults_;
     faults &= is_active() ? ~0U : ~kPermissions;
     return (faults & (std::uint32_t{1U} << fault)) != 0U;
 }

@@ -4,7 +4,7 @@
 /// machine.
 ///
 /// @satisfies SWR-SAF-013, SWR-SAF-014, SWR-SAF-015, SWR-SAF-018, SWR-SAF-019, SWR-SAF-021, SWR-SAF-022
-/// @satisfies SWR-SAF-023, SWR-SAF-025, SWR-SAF-028, SWR-SAF-033, SWR-SAF-047      Design:
+/// @satisfies SWR-SAF-023, SWR-SAF-025, SWR-SAF-028, SWR-SAF-033, SWR-SAF-047, SWR-SAF-062      Design:
 /// docs/design/safe_arm.md#reactions
 #ifndef EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
 #define EXAMPLES_SAFE_ARM_SAFETY_SUPERVISOR_HPP
@@ -39,6 +39,8 @@ class SafetySupervisor final : public mamori::safety::SafetyCycle {
     void command(mamori::safety::SafeState state,
                  const mamori::safety::StopOutputs& outputs) noexcept override;
 
+    std::uint32_t find_panel_faults(const JointReading& now) const noexcept;
+
     /// Torque is on, or a stop is under way.
     bool is_active() const noexcept {
         return get_state() >= mamori::safety::SafeState::kOperational &&
@@ -47,6 +49,7 @@ class SafetySupervisor final : public mamori::safety::SafetyCycle {
 
     StartUpCheck start_up_{};
     mamori::safety::ComplementStored<mamori::Instant> brakes_tested_at_{mamori::Instant{}};
+    std::uint32_t panel_faults_{0U};  ///< that count in the mode; bit n = ArmFault n
     bool is_brake_test_old_{false};
     bool has_ended_hold_{false};  ///< in the frame before
 };

@@ -10,7 +10,8 @@ namespace safe_arm {
 using mamori::safety::Reaction;
 
 std::string save_table(const std::string& path) {
-    mamori::table_dump::Names names{{kArmFaultNames.begin(), kArmFaultNames.end()}, {}};
+    mamori::table_dump::Names names{
+        {kArmFaultNames.begin(), kArmFaultNames.end()}, {}, {"HoldToRun", "ReducedSpeed", "Automatic"}};
     for (std::uint32_t i = 0U; i <= static_cast<std::uint32_t>(Reaction::kSto); ++i) {
         names.reactions.emplace_back(mamori::safety::get_name(static_cast<Reaction>(i)));
     }

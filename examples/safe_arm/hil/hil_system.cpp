@@ -59,10 +59,12 @@ mamori::ports::lcm::LinkSender<DriveMessage> drive_sender{"drive_sender", drive_
 /// Budgets bound the times; here only silence counts, since a shared host can stretch a run.
 static constexpr auto kHilSystem = mamori::safety::system(
     mamori::frame(kFrame), mamori::trace_hash(), make_arm_safety(hil::kLatenessMax),
-    make_arm_self_check(self_check), supervise(reader, alive(), deadline(390_us)),
-    supervise(filter, alive(), deadline(390_us)), supervise(monitor, alive(), deadline(390_us)),
-    supervise(supervisor, alive(), deadline(390_us)), supervise(gate, alive(), deadline(390_us)),
-    supervise(encoder, alive(), deadline(390_us)),
+    make_arm_self_check(self_check),
+    make_arm_modes(device_receiver, device_image, reader, filter, hang_point, monitor, supervisor, view,
+                   state_sender, command_receiver, gate, encoder, drive_sender),
+    supervise(reader, alive(), deadline(390_us)), supervise(filter, alive(), deadline(390_us)),
+    supervise(monitor, alive(), deadline(390_us)), supervise(supervisor, alive(), deadline(390_us)),
+    supervise(gate, alive(), deadline(390_us)), supervise(encoder, alive(), deadline(390_us)),
     supervise(command_receiver, alive(), deadline(390_us), raises(ArmFault::kControllerSilent)),
     confirmed_by(monitor.state, StopConfirmation::kStandstill),
     confirmed_by(filter.out, StopConfirmation::kClosedBrakes, StopConfirmation::kTorqueOff),
@@ -109,10 +111,16 @@ static VirtualMachine& get_virtual_machine() {
     return machine;
 }
 
+/// Connects the executive of a machine with what observes it and follows its modes.
+static void attach(mamori::Executive& executive, mamori::SystemModes& modes) noexcept {
+    executive.set_observer(&safety_state.get_observer());
+    reader.set_modes(modes);
+}
+
 const mamori::ports::posix_rt::FrameClock& make_real_time(
     const mamori::ports::posix_rt::MachineOptions& options) {
     RealTimeMachine& machine = get_real_time_machine(options);
-    machine.get_executives().get(0U).set_observer(&safety_state.get_observer());
+    attach(machine.get_executives().get(0U), machine.get_executives().get_modes());
     return machine.get_clock();
 }
 
@@ -125,8 +133,9 @@ const mamori::ports::posix_rt::MachineReport& get_report() noexcept {
 }
 
 mamori::Status run_in_virtual_time(std::uint64_t frames, mamori::Devices& devices) noexcept {
-    get_virtual_machine().get_executives().get(0U).set_observer(&safety_state.get_observer());
-    return get_virtual_machine().run(frames, devices);
+    VirtualMachine& machine = get_virtual_machine();
+    attach(machine.get_executives().get(0U), machine.get_executives().get_modes());
+    return machine.run(frames, devices);
 }
 
 mamori::ports::virtual_time::VirtualHost& get_virtual_host() noexcept {

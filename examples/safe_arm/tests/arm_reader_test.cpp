@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: counts become radians, feedback is passed on. Method: a process image filled here.
+// Goal: counts become radians, feedback is passed on, the mode of the system follows the selector. Method: a
+// process image filled here; for the modes, a system in virtual time that runs the reader and a component
+// that can hang.
 #include "arm_reader.hpp"
 
+#include <utility>
+#include <vector>
+
 #include "arm_faults.hpp"
+#include "arm_safety.hpp"
 #include "feed.hpp"
+#include "mamori/ports/virtual_time/frame_runner.hpp"
 #include "mamori/trace/verifies.hpp"
 
 namespace safe_arm {
@@ -11,17 +18,40 @@ namespace {
 
 using mamori::Status;
 using namespace mamori::verification;
+namespace virtual_time = mamori::ports::virtual_time;
+
+class Other final : public mamori::Component {
+  public:
+    constexpr Other() noexcept : Component("other") {}
+    using Ports = mamori::Ports<>;
+};
+struct Parts {
+    mamori::safety::ArmInputs inputs{};
+    ArmReader reader{inputs};
+    Other other{};
+};
+auto make_table(Parts& parts) {
+    return mamori::system(
+        mamori::frame(kFrame), make_arm_modes(parts.reader, parts.other),
+        mamori::window("read", 0_us, 500_us, mamori::budget(500_us), mamori::run(parts.reader)),
+        mamori::window("other", 500_us, 500_us, mamori::budget(500_us), mamori::run(parts.other)));
+}
+EncoderScale make_scale() {
+    EncoderScale scale{};
+    scale.a_counts_per_rad.fill(1000.0);
+    scale.b_counts_per_rad.fill(100.0);
+    return scale;
+}
 
 class ArmReaderTest : public ::testing::Test {
   protected:
-    static EncoderScale make_scale() {
-        EncoderScale scale{};
-        scale.a_counts_per_rad.fill(1000.0);
-        scale.b_counts_per_rad.fill(100.0);
-        return scale;
-    }
-    mamori::safety::ArmInputs inputs_{};
-    ArmReader sut_{inputs_};
+    void SetUp() override { sut_.set_modes(modes_); }
+
+    Parts parts_;
+    decltype(make_table(parts_)) table_{make_table(parts_)};
+    mamori::SystemModes modes_{mamori::make_view(table_)};
+    mamori::safety::ArmInputs& inputs_{parts_.inputs};
+    ArmReader& sut_{parts_.reader};
 };
 
 TEST_F(ArmReaderTest, CountsBecomeRadiansAndFeedbackIsPassedOn) {
@@ -61,10 +91,12 @@ TEST_F(ArmReaderTest, ThePanelIsEvaluatedInEachFrame) {
                   Status::kOk);
     }
     const JointReading reading = take(sut_.reading);
-    EXPECT_EQ(reading.panel_faults, to_bit(ArmFault::kEmergencyStop) | to_bit(ArmFault::kProtectiveStop))
+    EXPECT_EQ(reading.panel_faults, to_bit(ArmFault::kEmergencyStop) | to_bit(ArmFault::kProtectiveStop) |
+                                        to_bit(ArmFault::kModeSelector) | to_bit(ArmFault::kRunReleased))
         << "an image that was not filled";
     EXPECT_TRUE(reading.reset_button);
-    EXPECT_EQ(reading.mode, OperatingMode::kReducedSpeed);
+    EXPECT_EQ(reading.mode, OperatingMode::kHoldToRun)
+        << "the strictest one, until the system has another one";
     EXPECT_FALSE(reading.start_button);
 }
 
@@ -99,6 +131,83 @@ TEST_F(ArmReaderTest, ReaderWithoutAUsableResolutionRefusesToStart) {
 
     ASSERT_EQ(sut_.configure(make_scale()), Status::kOk);
     EXPECT_EQ(sut_.on_activated({}), Status::kOk);
+    ArmReader without_modes{inputs_};
+    ASSERT_EQ(without_modes.configure(make_scale()), Status::kOk);
+    EXPECT_EQ(without_modes.on_activated({}), Status::kPreconditionNotMet);
+}
+
+/// Turns the selector in the middle of a run.
+class ArmModesTest : public ArmReaderTest {
+  protected:
+    void run(OperatingMode first, OperatingMode second, std::uint64_t hangs_at = kFrames) {
+        ASSERT_EQ(sut_.configure(make_scale()), Status::kOk);
+        sut_.set_modes(modes_);
+        ASSERT_EQ(executive_.initialize(), Status::kOk);
+        ASSERT_EQ(executive_.start(), Status::kOk);
+        for (std::uint64_t frame = 0U; frame < kFrames; ++frame) {
+            const bool is_hanging = frame >= hangs_at && frame < hangs_at + 20U;
+            ASSERT_EQ(host_.set_duration(parts_.other, is_hanging ? virtual_time::kNever : 10_us),
+                      Status::kOk);
+            inputs_.mode_selected = {};
+            inputs_.mode_selected[2U - static_cast<std::size_t>(frame < kTurned ? first : second)] = true;
+            runner_.run_frame();
+            const JointReading& now = sut_.reading.get_published();
+            seen_.push_back(now.mode);
+            is_fault_.push_back((now.panel_faults & to_bit(ArmFault::kModeSelector)) != 0U);
+        }
+    }
+
+    static constexpr std::uint64_t kFrames = 100U;
+    static constexpr std::uint64_t kTurned = 50U;
+    static constexpr std::size_t kSwitchFrames = 7U;  ///< docs/design/modes.md#the-switch
+    mamori::ExecutiveFor<decltype(table_)> executive_{table_, modes_};
+    virtual_time::VirtualHostFor<decltype(table_)> host_{table_};
+    std::array<virtual_time::SimulatedCore, 1U> cores_{{{executive_, host_}}};
+    mamori::NoDevices devices_;
+    virtual_time::FrameRunner runner_{cores_, devices_};
+    std::vector<OperatingMode> seen_;  ///< in each frame
+    std::vector<bool> is_fault_;
+};
+
+class EachTransition : public ArmModesTest, public ::testing::WithParamInterface<std::pair<int, int>> {};
+
+TEST_P(EachTransition, OfTheSelectorIsOneOfTheSystemAndAFaultUntilThen) {
+    verifies("SWR-SAF-061", Technique::kStateTransition);
+    const auto first = static_cast<OperatingMode>(GetParam().first);
+    const auto second = static_cast<OperatingMode>(GetParam().second);
+    run(first, second);
+
+    EXPECT_EQ(seen_[0], OperatingMode::kHoldToRun) << "the strictest mode first";
+    for (std::size_t i = 0U; i < kFrames; ++i) {
+        const std::size_t since_turn = i < kTurned ? i : i - kTurned;
+        const OperatingMode before = i < kTurned ? OperatingMode::kHoldToRun : first;
+        const OperatingMode shown = i < kTurned ? first : second;
+        EXPECT_EQ(seen_[i], since_turn < kSwitchFrames ? before : shown) << i;
+        EXPECT_EQ(is_fault_[i], seen_[i] != shown) << i;
+    }
+    EXPECT_EQ(modes_.get_failure().cause, mamori::ModeFailureCause::kNone);
+}
+INSTANTIATE_TEST_SUITE_P(ArmModes, EachTransition,
+                         ::testing::Values(std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 0}, std::pair{1, 2},
+                                           std::pair{2, 0}, std::pair{2, 1}));
+
+TEST_F(ArmModesTest, ASwitchThatFailsEndsInTheSafeModeAndStaysAFault) {
+    verifies("SWR-SAF-061", Technique::kFaultInjection, Polarity::kViolation);
+    run(OperatingMode::kReducedSpeed, OperatingMode::kAutomatic, kTurned + 1U);
+
+    EXPECT_NE(modes_.get_failure().cause, mamori::ModeFailureCause::kNone);
+    EXPECT_EQ(seen_.back(), OperatingMode::kSwitchFailed);
+    for (std::size_t i = kTurned; i < seen_.size(); ++i) {
+        EXPECT_TRUE(is_fault_[i]) << i;
+        EXPECT_NE(seen_[i], OperatingMode::kAutomatic) << i;
+    }
+}
+
+TEST_F(ArmModesTest, AHangOutsideASwitchChangesNoMode) {
+    verifies("SWR-SAF-061", Technique::kErrorGuessing);
+    run(OperatingMode::kReducedSpeed, OperatingMode::kAutomatic, 20U);
+
+    EXPECT_EQ(seen_.back(), OperatingMode::kAutomatic);
 }
 
 }  // namespace

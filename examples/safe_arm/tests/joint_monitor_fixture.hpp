@@ -18,6 +18,7 @@ inline constexpr double kOutside = 1.001;
 class JointMonitorTest : public ::testing::Test {
   protected:
     void SetUp() override {
+        reading_.mode = OperatingMode::kAutomatic;
         reading_.power_good = true;
         reading_.brakes_closed = false;
         reading_.brakes_open = true;

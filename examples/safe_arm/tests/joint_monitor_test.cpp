@@ -369,7 +369,8 @@ TEST_F(JointMonitorTest, AnArmOnItsStopIsNoFault) {
 TEST_F(JointMonitorTest, EachJointHasItsReducedSpeedInAllModesButAutomatic) {
     verifies("SWR-SAF-037", Technique::kBoundaryValues, Polarity::kViolation);
     for (std::size_t joint = 0U; joint < kArmJointCount; ++joint) {
-        for (const OperatingMode mode : {OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun}) {
+        for (const OperatingMode mode :
+             {OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun, OperatingMode::kSwitchFailed}) {
             reading_.mode = mode;
             EXPECT_EQ(move(joint, kReducedSpeedRadS[joint] * kInside, 10).faults, 0U) << joint;
             EXPECT_EQ(move(joint, kReducedSpeedRadS[joint] * kOutside, 10).faults,

@@ -18,12 +18,14 @@ class OperatorPanelTest : public ::testing::Test {
     void SetUp() override {
         inputs_.emergency_stop_closed.fill(true);
         inputs_.protective_stop_closed.fill(true);
+        inputs_.enabling_closed.fill(true);
+        inputs_.run_button = true;
         inputs_.mode_selected[0] = true;
         step();
     }
     PanelState step() {
         now_ = now_ + kFrame;
-        return sut_.step(inputs_, now_);
+        return sut_.step(inputs_, mode_, now_);
     }
     /// @return the faults of the last frame.
     std::uint32_t step_for(Duration time) {
@@ -46,23 +48,20 @@ class OperatorPanelTest : public ::testing::Test {
     }
     PanelState push_reset() { return push(&mamori::safety::ArmInputs::reset_button, kPushMin); }
 
-    std::uint32_t select(OperatingMode mode) {
+    PanelState select(OperatingMode mode) {
+        // The contacts are in the reverse order of the modes.
         inputs_.mode_selected = {};
-        inputs_.mode_selected[static_cast<std::size_t>(mode)] = true;
-        return step().faults;
-    }
-    /// A panel that has seen no other mode, with both circuits of the enabling device closed.
-    void begin_in(OperatingMode mode) {
-        sut_ = OperatorPanel{};
-        inputs_.enabling_closed.fill(true);
-        inputs_.run_button = true;
-        ASSERT_EQ(select(mode), 0U);
+        inputs_.mode_selected[2U - static_cast<std::size_t>(mode)] = true;
+        return step();
     }
 
     mamori::safety::ArmInputs inputs_{};
     OperatorPanel sut_{};
+    OperatingMode mode_{OperatingMode::kAutomatic};  ///< of the system
     Instant now_{};
 };
+constexpr std::array kModes{OperatingMode::kHoldToRun, OperatingMode::kReducedSpeed,
+                            OperatingMode::kAutomatic};
 
 TEST_F(OperatorPanelTest, ClosedCircuitsDemandNothing) {
     verifies("SWR-SAF-030");
@@ -179,22 +178,28 @@ TEST_F(OperatorPanelTest, AButtonThatIsPushedAtPowerUpDoesNothingWhenItIsRelease
     OperatorPanel panel;
     inputs_.start_button = true;
     inputs_.reset_button = true;
-    panel.step(inputs_, Instant{0});
+    panel.step(inputs_, mode_, Instant{0});
     inputs_.start_button = false;
     inputs_.reset_button = false;
 
-    const PanelState released = panel.step(inputs_, Instant{0} + kPushMin);
+    const PanelState released = panel.step(inputs_, mode_, Instant{0} + kPushMin);
     EXPECT_FALSE(released.start || released.reset);
 }
 
-TEST_F(OperatorPanelTest, TheEnablingDeviceIsNeededInAllModesButAutomatic) {
-    verifies("SWR-SAF-035", Technique::kEquivalenceClasses);
-    for (const OperatingMode mode :
-         {OperatingMode::kAutomatic, OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun}) {
-        begin_in(mode);
-        EXPECT_EQ(step_for(200_ms), 0U);
+TEST_F(OperatorPanelTest, EachControlIsReportedWhateverTheMode) {
+    verifies("SWR-SAF-035");
+    for (const OperatingMode mode : kModes) {
+        mode_ = mode;
+        EXPECT_EQ(select(mode).faults, 0U);
         inputs_.enabling_closed.fill(false);
-        EXPECT_EQ(step_for(200_ms), mode == OperatingMode::kAutomatic ? 0U : to_bit(ArmFault::kEnableLost));
+        EXPECT_EQ(step_for(200_ms), to_bit(ArmFault::kEnableLost));
+        inputs_.enabling_closed.fill(true);
+        inputs_.run_button = false;
+        EXPECT_EQ(step().faults, to_bit(ArmFault::kRunReleased));
+        inputs_.run_button = true;
+        inputs_.enabling_squeezed = true;
+        EXPECT_EQ(step().faults, to_bit(ArmFault::kEnablingSqueezed));
+        inputs_.enabling_squeezed = false;
     }
 }
 
@@ -202,67 +207,52 @@ TEST_F(OperatorPanelTest, EitherChannelOfTheEnablingDeviceAloneStopsAndTheirDiff
     verifies("SWR-SAF-035", Technique::kFaultInjection, Polarity::kViolation);
     for (const std::array<bool, 2U>& closed :
          {std::array<bool, 2U>{true, false}, std::array<bool, 2U>{false, true}}) {
-        begin_in(OperatingMode::kReducedSpeed);
+        sut_ = OperatorPanel{};
         inputs_.enabling_closed = closed;
         EXPECT_EQ(step().faults, to_bit(ArmFault::kEnableLost));
         EXPECT_EQ(step_for(200_ms), to_bit(ArmFault::kEnableLost) | to_bit(ArmFault::kSwitchDiscrepancy));
     }
 }
 
-TEST_F(OperatorPanelTest, ASqueezedEnablingDeviceIsADemandOfItsOwnWhereTheDeviceIsNeeded) {
-    verifies("SWR-SAF-035", Technique::kEquivalenceClasses, Polarity::kViolation);
-    for (const OperatingMode mode :
-         {OperatingMode::kAutomatic, OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun}) {
-        begin_in(mode);
-        inputs_.enabling_squeezed = true;
-        EXPECT_EQ(step().faults,
-                  mode == OperatingMode::kAutomatic ? 0U : to_bit(ArmFault::kEnablingSqueezed));
-        inputs_.enabling_squeezed = false;
-    }
-}
-
-TEST_F(OperatorPanelTest, TheHoldToRunButtonIsNeededInItsModeOnly) {
-    verifies("SWR-SAF-035", Technique::kEquivalenceClasses, Polarity::kViolation);
-    for (const OperatingMode mode :
-         {OperatingMode::kAutomatic, OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun}) {
-        begin_in(mode);
-        inputs_.run_button = false;
-        EXPECT_EQ(step().faults, mode == OperatingMode::kHoldToRun ? to_bit(ArmFault::kEnableLost) : 0U);
-    }
-}
-
-TEST_F(OperatorPanelTest, TheSelectorGivesTheMode) {
+TEST_F(OperatorPanelTest, TheSelectorGivesTheModeAndNoneIsTheModeOfTheSystem) {
     verifies("SWR-SAF-036");
-    for (const OperatingMode mode :
-         {OperatingMode::kAutomatic, OperatingMode::kReducedSpeed, OperatingMode::kHoldToRun}) {
-        begin_in(mode);
-        EXPECT_EQ(step().mode, mode);
+    for (const OperatingMode mode : kModes) {
+        EXPECT_EQ(select(mode).selected, mode);
+        inputs_.mode_selected = {};
+        EXPECT_EQ(step().selected, mode_);
     }
-    OperatorPanel panel;
-    inputs_.mode_selected = {};
-    EXPECT_EQ(panel.step(inputs_, now_).mode, OperatingMode::kHoldToRun)
-        << "the strictest one until one is shown";
 }
 
-TEST_F(OperatorPanelTest, AChangeOfTheModeIsAFaultInItsFrame) {
+TEST_F(OperatorPanelTest, AModeThatTheSystemIsNotInIsAFaultInEachFrame) {
     verifies("SWR-SAF-036", Technique::kStateTransition, Polarity::kViolation);
-    inputs_.enabling_closed.fill(true);
-    EXPECT_EQ(select(OperatingMode::kReducedSpeed), to_bit(ArmFault::kModeSelector));
-    EXPECT_EQ(step().faults, 0U);
-    EXPECT_EQ(step().mode, OperatingMode::kReducedSpeed);
-    EXPECT_EQ(select(OperatingMode::kAutomatic), to_bit(ArmFault::kModeSelector));
+    for (const OperatingMode from : kModes) {
+        for (const OperatingMode to : kModes) {
+            mode_ = from;
+            EXPECT_EQ(select(from).faults, 0U);
+            EXPECT_EQ(select(to).faults, from == to ? 0U : to_bit(ArmFault::kModeSelector));
+            EXPECT_EQ(step_for(1000_ms), from == to ? 0U : to_bit(ArmFault::kModeSelector));
+        }
+    }
+}
+
+TEST_F(OperatorPanelTest, AfterAFailedSwitchEachPositionIsAFault) {
+    verifies("SWR-SAF-036", Technique::kEquivalenceClasses, Polarity::kViolation);
+    mode_ = OperatingMode::kSwitchFailed;
+    for (const OperatingMode mode : kModes) {
+        EXPECT_EQ(select(mode).faults, to_bit(ArmFault::kModeSelector));
+    }
+    inputs_.mode_selected = {};
+    EXPECT_EQ(step().faults, to_bit(ArmFault::kModeSelector));
 }
 
 TEST_F(OperatorPanelTest, NoModeAndSeveralModesAreAFaultAfterTheirTimeUntilAReset) {
     verifies("SWR-SAF-036", Technique::kBoundaryValues, Polarity::kViolation);
     for (const std::array<bool, 3U>& contacts :
-         {std::array<bool, 3U>{}, std::array<bool, 3U>{true, true, false}}) {
-        begin_in(OperatingMode::kAutomatic);
+         {std::array<bool, 3U>{}, std::array<bool, 3U>{false, true, true}}) {
         inputs_.mode_selected = contacts;
         EXPECT_EQ(step_for(kSwitchDiscrepancyTime + kFrame), 0U);
         EXPECT_EQ(step().faults, to_bit(ArmFault::kModeSelector));
-        EXPECT_EQ(step().mode, OperatingMode::kAutomatic) << "the last one that was shown";
-        EXPECT_EQ(select(OperatingMode::kAutomatic), to_bit(ArmFault::kModeSelector));
+        EXPECT_EQ(select(mode_).faults, to_bit(ArmFault::kModeSelector));
         EXPECT_EQ(push_reset().faults, 0U);
     }
 }

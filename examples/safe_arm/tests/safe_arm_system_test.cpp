@@ -11,6 +11,7 @@ using mamori::safety::calc_reaction;
 using mamori::safety::FaultIndex;
 using mamori::safety::FaultRecord;
 using mamori::safety::FaultRegister;
+using mamori::safety::Reaction;
 using namespace mamori::verification;
 
 bool is_forward(const mamori::OutPortBase& source, const mamori::InPortBase& sink) {
@@ -67,9 +68,53 @@ TEST(ArmReactionsTest, EachFaultAloneLeadsToItsRow) {
 
         const mamori::safety::ReactionDemand demand = calc_reaction(executive.get_view().reactions, faults);
         EXPECT_EQ(demand.fault, i);
-        EXPECT_GE(demand.reaction, mamori::safety::Reaction::kSs2) << kArmFaultNames[i];
+        EXPECT_GE(demand.reaction, Reaction::kSs2) << kArmFaultNames[i];
         EXPECT_EQ(demand.within, 2_ms);
     }
+}
+
+Reaction find_reaction(ArmFault fault, OperatingMode mode) {
+    return mamori::safety::find_demand(executive.get_view().reactions, to_index(fault),
+                                       static_cast<std::size_t>(mode))
+        .reaction;
+}
+
+TEST(ArmReactionsTest, TheEnablingDeviceIsNeededInAllModesButAutomatic) {
+    verifies("SWR-SAF-063", Technique::kEquivalenceClasses, Polarity::kViolation);
+    for (const OperatingMode mode :
+         {OperatingMode::kHoldToRun, OperatingMode::kReducedSpeed, OperatingMode::kSwitchFailed}) {
+        EXPECT_EQ(find_reaction(ArmFault::kEnableLost, mode), Reaction::kSs2);
+        EXPECT_EQ(find_reaction(ArmFault::kEnablingSqueezed, mode), Reaction::kSs1);
+    }
+    EXPECT_EQ(find_reaction(ArmFault::kRunReleased, OperatingMode::kHoldToRun), Reaction::kSs2);
+    EXPECT_EQ(find_reaction(ArmFault::kRunReleased, OperatingMode::kSwitchFailed), Reaction::kSs2);
+}
+
+TEST(ArmReactionsTest, AControlThatAModeDoesNotNeedStopsNothingAndAllOtherFaultsStopInEachMode) {
+    verifies("SWR-SAF-063", Technique::kEquivalenceClasses);
+    std::size_t without_stop = 0U;
+    for (std::size_t i = 0U; i < kArmFaultCount; ++i) {
+        for (std::size_t mode = 0U; mode <= static_cast<std::size_t>(OperatingMode::kSwitchFailed); ++mode) {
+            const Reaction reaction =
+                find_reaction(static_cast<ArmFault>(i), static_cast<OperatingMode>(mode));
+            EXPECT_TRUE(reaction == Reaction::kNone || reaction >= Reaction::kSs2) << i << " in " << mode;
+            without_stop += reaction == Reaction::kNone ? 1U : 0U;
+        }
+    }
+    EXPECT_EQ(find_reaction(ArmFault::kEnableLost, OperatingMode::kAutomatic), Reaction::kNone);
+    EXPECT_EQ(find_reaction(ArmFault::kEnablingSqueezed, OperatingMode::kAutomatic), Reaction::kNone);
+    EXPECT_EQ(find_reaction(ArmFault::kRunReleased, OperatingMode::kAutomatic), Reaction::kNone);
+    EXPECT_EQ(find_reaction(ArmFault::kRunReleased, OperatingMode::kReducedSpeed), Reaction::kNone);
+    EXPECT_EQ(without_stop, 4U);
+}
+
+TEST(SafeArmSystemTest, EachModeRunsAllComponentsSoASwitchDeactivatesNone) {
+    verifies("SWR-SAF-061", Technique::kInterface);
+    const mamori::SystemView& view = executive.get_view();
+
+    EXPECT_EQ(view.modes.modes.size(), 4U);
+    EXPECT_EQ(view.modes.members.size(), 4U * view.components.size());
+    EXPECT_EQ(mamori::find_safe_mode(view.modes), static_cast<std::size_t>(OperatingMode::kSwitchFailed));
 }
 
 TEST(ArmReactionsTest, NoFaultDemandsNothing) {

@@ -40,7 +40,7 @@ Measuring g_measuring{"measuring"};
 InsteadOfCycle g_other{"other"};
 Supervised g_controller{"controller"};
 constexpr auto kSupervised = mamori::safety::system(
-    mamori::frame(kFrame), make_arm_safety(kLatenessMax),
+    mamori::frame(kFrame), make_arm_safety(kLatenessMax), make_arm_modes(g_measuring, g_other, g_controller),
     mamori::safety::supervise(g_other, mamori::safety::alive(),
                               mamori::safety::deadline(kSafetyComponentMax)),
     mamori::safety::supervise(g_controller, mamori::safety::alive(),
@@ -87,6 +87,7 @@ class SafetySupervisorFixture : public ::testing::Test {
     void SetUp() override {
         g_check.answer = mamori::safety::SelfTestStatus::kPassed;
         ASSERT_EQ(sut_.initialize(), mamori::Status::kOk);
+        reading_.mode = OperatingMode::kAutomatic;
         reading_.power_good = true;
         reading_.brakes_closed = true;
         state_.is_standing = true;

@@ -355,6 +355,100 @@ TEST_F(SafetySupervisorTest, AChangeOfTheModeNeedsResetAndStart) {
     EXPECT_EQ(step().state, SafeState::kSelfTest);
 }
 
+TEST_F(SafetySupervisorTest, TheArmDoesNotStartBeforeTheSystemHasFollowedTheSelector) {
+    verifies("SWR-SAF-062", Technique::kStateTransition);
+    reading_.panel_faults = to_bit(ArmFault::kModeSelector);
+    step();
+    step();
+    reading_.panel_faults = 0U;
+    step_until(SafeState::kStandby, 400);
+    EXPECT_EQ(sut_.get_state(), SafeState::kStandby) << "no fault of the self test";
+    EXPECT_EQ(operate().state, SafeState::kOperational);
+}
+
+TEST_F(SafetySupervisorTest, ASystemThatDoesNotFollowTheSelectorIsAFaultAfterTheSelfTest) {
+    verifies("SWR-SAF-062", Technique::kFaultInjection, Polarity::kViolation);
+    reading_.panel_faults = to_bit(ArmFault::kModeSelector);
+    for (int i = 0; i < 400; ++i) {
+        ASSERT_FALSE(step().brake_release) << i;
+    }
+    EXPECT_EQ(sut_.get_state(), SafeState::kSafe);
+    EXPECT_EQ(sut_.get_first_fault(), to_index(ArmFault::kModeSelector));
+}
+
+TEST_F(SafetySupervisorTest, ATurnedSelectorStopsAMovingArmInEachMode) {
+    verifies("SWR-SAF-062", Technique::kStateTransition, Polarity::kViolation);
+    for (const OperatingMode mode :
+         {OperatingMode::kHoldToRun, OperatingMode::kReducedSpeed, OperatingMode::kAutomatic}) {
+        reading_.mode = mode;
+        ASSERT_EQ(operate().state, SafeState::kOperational);
+        reading_.panel_faults = to_bit(ArmFault::kModeSelector);
+        state_.is_standing = false;
+        EXPECT_EQ(step().state, SafeState::kProtectiveStopSs1);
+        state_.is_standing = true;
+        reading_.brakes_closed = true;
+        reading_.torque_enabled = false;
+        step_until(SafeState::kSafe, 400);
+        reading_.panel_faults = 0U;
+        reading_.reset_button = true;
+        step();
+        reading_.reset_button = false;
+    }
+}
+
+TEST_F(SafetySupervisorTest, AControlThatTheModeDoesNotNeedNeitherStopsTheArmNorPreventsItsStart) {
+    verifies("SWR-SAF-063", Technique::kEquivalenceClasses);
+    reading_.panel_faults =
+        to_bit(ArmFault::kEnableLost) | to_bit(ArmFault::kEnablingSqueezed) | to_bit(ArmFault::kRunReleased);
+    ASSERT_EQ(operate().state, SafeState::kOperational);
+    for (int i = 0; i < 10; ++i) {
+        EXPECT_EQ(step().state, SafeState::kOperational);
+    }
+    reading_.mode = OperatingMode::kReducedSpeed;
+    reading_.panel_faults = to_bit(ArmFault::kRunReleased);
+    EXPECT_EQ(step().state, SafeState::kOperational);
+    EXPECT_EQ(sut_.get_first_fault(), mamori::safety::kNoFault);
+}
+
+TEST_F(SafetySupervisorTest, AControlThatTheModeNeedsStopsTheArmAndPreventsItsStart) {
+    verifies("SWR-SAF-063", Technique::kEquivalenceClasses, Polarity::kViolation);
+    for (const OperatingMode mode : {OperatingMode::kHoldToRun, OperatingMode::kReducedSpeed}) {
+        reading_.mode = mode;
+        step_until(SafeState::kStandby, 400);
+        reading_.panel_faults = to_bit(ArmFault::kEnableLost);
+        reading_.start_button = true;
+        EXPECT_EQ(step().state, SafeState::kStandby);
+        reading_.start_button = false;
+        reading_.panel_faults = 0U;
+        step();
+        ASSERT_EQ(operate().state, SafeState::kOperational);
+        reading_.panel_faults = to_bit(ArmFault::kEnablingSqueezed);
+        state_.is_standing = false;
+        EXPECT_EQ(step().state, SafeState::kProtectiveStopSs1);
+        state_.is_standing = true;
+        reading_.brakes_closed = true;
+        reading_.torque_enabled = false;
+        step_until(SafeState::kSafe, 400);
+        reading_.panel_faults = 0U;
+        reading_.reset_button = true;
+        step();
+        reading_.reset_button = false;
+    }
+    reading_.mode = OperatingMode::kHoldToRun;
+    ASSERT_EQ(operate().state, SafeState::kOperational);
+    reading_.panel_faults = to_bit(ArmFault::kRunReleased);
+    EXPECT_EQ(step().state, SafeState::kProtectiveStopSs2);
+}
+
+TEST_F(SafetySupervisorTest, AModeThatIsNoneDemandsStoForEachFault) {
+    verifies("SWR-SAF-063", Technique::kBoundaryValues, Polarity::kViolation);
+    ASSERT_EQ(operate().state, SafeState::kOperational);
+    reading_.mode = static_cast<OperatingMode>(4U);
+    reading_.panel_faults = to_bit(ArmFault::kRunReleased);
+
+    EXPECT_EQ(step().state, SafeState::kSafe);
+}
+
 TEST_F(SafetySupervisorTest, StartDoesNothingWhileTheProtectiveStopIsOpen) {
     verifies("SWR-SAF-033", Technique::kErrorGuessing, Polarity::kViolation);
     step_until(SafeState::kStandby, 400);

@@ -27,6 +27,10 @@ bool SafetyCycle::has_begun(const ReactionDemand& demand, const StopOutputs& app
     return !applied.torque_enable || (demand.reaction < Reaction::kSto && applied.stop_requested);
 }
 
+bool SafetyCycle::is_answered(FaultIndex fault, std::size_t mode) const noexcept {
+    return find_demand(state_.reactions_, fault, mode).reaction != Reaction::kNone;
+}
+
 Status SafetyCycle::apply_table() noexcept {
     for (const ConfirmRow& row : state_.confirmations_) {
         Status result = state_.faults_.set_confirmation(row.fault, row.confirmation);

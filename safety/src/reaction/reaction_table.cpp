@@ -11,7 +11,8 @@ bool is_answer(const ReactionRow& row, FaultIndex fault, std::size_t mode) noexc
            mode < kSystemModeMax && (row.modes & to_mask(mode)) != 0U;
 }
 
-/// The demand of a fault in a mode. A fault without a row gets the severest reaction immediately.
+}  // namespace
+
 ReactionDemand find_demand(Span<const ReactionRow> rows, FaultIndex fault, std::size_t mode) noexcept {
     for (const ReactionRow& row : rows) {
         if (is_answer(row, fault, mode)) {
@@ -20,8 +21,6 @@ ReactionDemand find_demand(Span<const ReactionRow> rows, FaultIndex fault, std::
     }
     return {Reaction::kSto, fault, Duration{0}};
 }
-
-}  // namespace
 
 ReactionDemand calc_reaction(Span<const ReactionRow> rows, FaultRegister& faults, std::size_t mode) noexcept {
     ReactionDemand worst{};

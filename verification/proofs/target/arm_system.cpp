@@ -67,6 +67,7 @@ mamori::Crossing<safe_arm::TorqueCommand> command_crossing;
 
 constexpr auto kSystem = mamori::safety::system(
     mamori::frame(safe_arm::kFrame), mamori::trace_hash(), safe_arm::make_arm_safety(safe_arm::kLatenessMax),
+    safe_arm::make_arm_modes(reader, monitor, supervisor, controller, channel, gate),
     supervise(reader, alive(), deadline(safe_arm::kControllerMax)),
     supervise(monitor, alive(), deadline(safe_arm::kControllerMax)),
     supervise(supervisor, alive(), deadline(safe_arm::kControllerMax)),
@@ -98,7 +99,8 @@ MAMORI_SAFETY_CHECK(kSystem);
 mamori::safety::SafetyStorage<kSystem> safety_storage;
 mamori::safety::SafetyState safety_state{safety_storage, watchdog, &assumptions};
 
-mamori::ExecutiveFor executive_of_table{kSystem};
+mamori::SystemModes modes{mamori::make_view(kSystem)};
+mamori::ExecutiveFor executive_of_table{kSystem, modes};
 virtual_time::VirtualHostFor host_of_table{kSystem};
 mamori::IntrospectionFor introspection{kSystem};
 
@@ -113,6 +115,7 @@ virtual_time::VirtualHost& virtual_host = host_of_table;
 
 Status prepare() noexcept {
     executive.set_observer(&safety_state.get_observer());
+    reader.set_modes(modes);
     executive.set_introspection(&introspection);
     return reader.configure({safe_arm::make_uniform(kCountsPerRad), safe_arm::make_uniform(kCountsPerRad)});
 }

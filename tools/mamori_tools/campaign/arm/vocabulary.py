@@ -16,5 +16,5 @@ DETECTED_FAULTS = (NOTHING, "EncoderImplausible", "EncoderDiscrepancy", "Encoder
                    "PositionLimit", "TorqueDeviation", "ControllerSilent", "CommandStale", "PowerLost", "BrakeFault",
                    "SelfTestFailed", "MeasurementStale", "ReactionLate", "BrakeTestOld", "StopNotFollowed",
                    "EmergencyStop", "SwitchDiscrepancy", "ProtectiveStop", "MovementAtRest", "EnableLost", "EnablingSqueezed", "ModeSelector",
-                   "ClockDeviation", "PositionDoubtful",
+                   "ClockDeviation", "PositionDoubtful", "RunReleased",
                    "SupervisorSilent", "WatchdogExpired")  # fmt: skip

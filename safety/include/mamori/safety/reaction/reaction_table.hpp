@@ -17,6 +17,11 @@
 
 namespace mamori::safety {
 
+/// Finds the demand of one fault. @param[in] rows, mode as below.
+/// @return the reaction of the row of the fault in the mode; Reaction::kSto at once without such a row.
+/// Time: O(rows).
+ReactionDemand find_demand(Span<const ReactionRow> rows, FaultIndex fault, std::size_t mode) noexcept;
+
 /// Finds the demand of all latched faults. Call it in each cycle: the register keeps the worst demand of each
 /// latched fault until it is acknowledged, so no mode switch lowers it.
 /// @param[in]     rows   SystemTable::reactions; their numbers are those of Reaction.
