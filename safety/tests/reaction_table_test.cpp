@@ -221,6 +221,14 @@ TEST_F(ReactionTableTest, ModeDecidesWhichRowAnswers) {
         << "mode 0 unless another is named";
 }
 
+TEST_F(ReactionTableTest, TheDemandOfAFaultIsKnownBeforeItIsLatched) {
+    verifies("SWR-FLT-010");
+
+    EXPECT_EQ(find_demand(kModeTable, 2U, 2U).reaction, Reaction::kNone);
+    EXPECT_EQ(find_demand(kModeTable, 1U, 2U).within, 30_ms);
+    EXPECT_EQ(find_demand(kModeTable, 2U, 0U).reaction, Reaction::kSto) << "no row";
+}
+
 TEST_F(ReactionTableTest, FaultWithoutARowForTheModeCutsTheTorque) {
     verifies("SWR-FLT-010", Technique::kFaultInjection, Polarity::kViolation);
     latch(Fault::kSlip);
