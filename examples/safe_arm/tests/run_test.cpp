@@ -447,8 +447,7 @@ TEST_F(RunTest, TimingLeavesTheTimesOfEveryWindowOfEveryFrame) {
     EXPECT_EQ(facts["requests"]["block_cycles"], 500);
     EXPECT_GT(fs::file_size(folder_ / "out" / "openings.npy"), 300U * 4U * 32U);
     EXPECT_GT(fs::file_size(folder_ / "out" / "steps.npy"), 32U);
-    EXPECT_EQ(nlohmann::json::parse(std::ifstream{folder_ / "out" / "table.json"})["modes"].size(),
-              4U);
+    EXPECT_EQ(nlohmann::json::parse(std::ifstream{folder_ / "out" / "table.json"})["modes"].size(), 4U);
     ASSERT_EQ(facts["notes"].size(), 2U);
     EXPECT_EQ(facts["notes"][0].get<std::string>().find("the arm ended in state "), 0U) << facts["notes"];
     EXPECT_NE(messages_.find("the simulated arm was not ready for "), std::string::npos) << messages_;
