@@ -37,7 +37,7 @@ enum class ArmFault : std::uint16_t {
     kMovementAtRest,      ///< the arm moves without torque, behind closed brakes
     kEnableLost,          ///< the enabling device is released while torque is on
     kEnablingSqueezed,    ///< the enabling device is squeezed
-    kModeSelector,        ///< the selector shows another mode than that of the system, or none
+    kModeSelector,        ///< the system is not in the mode of the selector, or that shows none
     kClockDeviation,      ///< the clocks of processor and drives run at different rates
     kPositionDoubtful,    ///< torque or reference switch contradicts both encoder channels
     kRunReleased,         ///< the hold-to-run button is released while torque is on

@@ -18,7 +18,11 @@ Status ArmReader::configure(const EncoderScale& scale) noexcept {
 }
 
 Status ArmReader::on_activated(ContextHandle) noexcept {
-    return is_configured_ && modes_ != nullptr ? Status::kOk : Status::kPreconditionNotMet;
+    if (!is_configured_ || modes_ == nullptr) {
+        return Status::kPreconditionNotMet;
+    }
+    requested_ = modes_->get_mode<OperatingMode>();
+    return Status::kOk;
 }
 
 Status ArmReader::on_execute(ContextHandle context) noexcept {
@@ -40,10 +44,11 @@ Status ArmReader::on_execute(ContextHandle context) noexcept {
     result.drive_clock_ns = inputs_.drive_clock_ns;
     result.mode = modes_->get_mode<OperatingMode>();
     const PanelState panel = panel_.step(inputs_, result.mode, context.now);
-    if (panel.selected != result.mode) {
-        // One that is rejected, for instance during a switch, is repeated. The fault remains until then.
-        static_cast<void>(modes_->request(panel.selected));
+    // A rejected request, for example during a mode switch, is repeated in the next frame.
+    if (panel.selected != result.mode && modes_->request(panel.selected) == Status::kOk) {
+        requested_ = panel.selected;
     }
+    result.is_mode_changing = panel.selected != result.mode || requested_ != result.mode;
     result.start_button = panel.start;
     result.reset_button = panel.reset;
     result.panel_faults = panel.faults;

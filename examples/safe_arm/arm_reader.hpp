@@ -46,6 +46,7 @@ class ArmReader final : public mamori::Component {
     EncoderScale scale_{};
     OperatorPanel panel_{};
     mamori::SystemModes* modes_{nullptr};
+    OperatingMode requested_{OperatingMode::kHoldToRun};  ///< accepted by `modes_`
     bool is_configured_{false};
 };
 

@@ -43,6 +43,7 @@ struct JointReading {
     std::array<bool, kArmJointCount> reference_closed{};  ///< the joint angle is positive
     std::int64_t drive_clock_ns{0};                       ///< 0: no sample yet
     OperatingMode mode{OperatingMode::kHoldToRun};        ///< of the system, in this frame
+    bool is_mode_changing{false};    ///< the selector shows another one, or a mode switch has not ended
     std::uint32_t panel_faults{0U};  ///< of the operator panel in any mode; bit n = ArmFault n
 };
 
@@ -99,7 +100,7 @@ struct DriveCommand {
 
 MAMORI_FIELDS(safe_arm::JointReading, position_a_rad, position_b_rad, measured_torque_nm, brakes_closed,
               brakes_open, torque_enabled, relay_closed, power_good, start_button, reset_button,
-              reference_closed, drive_clock_ns, mode, panel_faults)
+              reference_closed, drive_clock_ns, mode, is_mode_changing, panel_faults)
 MAMORI_FIELDS(safe_arm::JointState, position_rad, velocity_rad_s, faults, is_standing, is_clock_checked,
               is_setpoint_near)
 MAMORI_FIELDS(safe_arm::TorqueCommand, sequence, sent_at_ns, setpoint_rad, torque_nm)

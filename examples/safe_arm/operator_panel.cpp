@@ -82,9 +82,8 @@ PanelState OperatorPanel::step(const ArmInputs& inputs, OperatingMode mode, Inst
         selector_.acknowledge();  // a mode that is still not shown is a fault again after its time
     }
     result.selected = selector_.step(inputs.mode_selected, mode, now);
-    const bool is_mode_doubtful =
-        result.selected != mode || mode == OperatingMode::kSwitchFailed || selector_.has_failed();
-    result.faults |= is_mode_doubtful ? to_bit(ArmFault::kModeSelector) : 0U;
+    const bool is_mode_unknown = mode == OperatingMode::kSwitchFailed || selector_.has_failed();
+    result.faults |= is_mode_unknown ? to_bit(ArmFault::kModeSelector) : 0U;
     return result;
 }
 

@@ -34,12 +34,12 @@ TorqueSource choose_source(SafeState state) noexcept {
 
 }  // namespace
 
-/// The modes differ in the controls that they need: the table answers the other ones with no reaction.
+/// Keeps the faults of the panel to which the table reacts in the current mode.
 std::uint32_t SafetySupervisor::find_panel_faults(const JointReading& now) const noexcept {
     std::uint32_t faults = 0U;
     for (FaultIndex fault = 0U; fault < kArmFaultCount; ++fault) {
         const std::uint32_t bit = now.panel_faults & (std::uint32_t{1U} << fault);
-        faults |= bit != 0U && is_answered(fault, static_cast<std::size_t>(now.mode)) ? bit : 0U;
+        faults |= bit != 0U && has_reaction(fault, static_cast<std::size_t>(now.mode)) ? bit : 0U;
     }
     return faults;
 }
@@ -90,8 +90,10 @@ bool SafetySupervisor::is_present(FaultIndex fault) noexcept {
         // A stopped machine tests its brakes again after a reset; the fault must not refuse that reset.
         return is_brake_test_old_ && get_state() != SafeState::kSafe && get_state() != SafeState::kSelfTest;
     }
-    if (fault == to_index(ArmFault::kModeSelector) && get_state() == SafeState::kSelfTest) {
-        return false;  // the system follows the selector there, and cannot start
+    // In the self test, the system may follow the selector: it cannot start there.
+    if (fault == to_index(ArmFault::kModeSelector) && reading.read().is_mode_changing &&
+        get_state() != SafeState::kSelfTest) {
+        return true;
     }
     std::uint32_t faults = arm_state.read().faults | panel_faults_;
     faults &= is_active() ? ~0U : ~kPermissions;

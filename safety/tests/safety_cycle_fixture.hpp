@@ -45,7 +45,7 @@ class FakeMachine final : public SafetyCycle {
     std::vector<std::string> calls{};
     std::function<void()> after_command{};
 
-    using SafetyCycle::is_answered;
+    using SafetyCycle::has_reaction;
     using SafetyCycle::is_watchdog_serviced;
 
   private:

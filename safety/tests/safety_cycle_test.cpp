@@ -185,7 +185,7 @@ TEST_F(SafetyCycleTest, TheModeSelectsTheReaction) {
     verifies("SWR-CYC-004", Technique::kStateTransition, Polarity::kViolation);
     operate();
     sut_.inputs.mode = kSystemModeMax;
-    EXPECT_TRUE(sut_.is_answered(static_cast<FaultIndex>(Fault::kWarm), kSystemModeMax));
+    EXPECT_TRUE(sut_.has_reaction(static_cast<FaultIndex>(Fault::kWarm), kSystemModeMax));
     set_present(Fault::kWarm, true);
 
     EXPECT_EQ(step(), SafeState::kSafe) << "STO in an invalid mode, Degrade in mode 0";

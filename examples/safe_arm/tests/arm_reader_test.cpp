@@ -92,8 +92,9 @@ TEST_F(ArmReaderTest, ThePanelIsEvaluatedInEachFrame) {
     }
     const JointReading reading = take(sut_.reading);
     EXPECT_EQ(reading.panel_faults, to_bit(ArmFault::kEmergencyStop) | to_bit(ArmFault::kProtectiveStop) |
-                                        to_bit(ArmFault::kModeSelector) | to_bit(ArmFault::kRunReleased))
+                                        to_bit(ArmFault::kRunReleased))
         << "an image that was not filled";
+    EXPECT_TRUE(reading.is_mode_changing);
     EXPECT_TRUE(reading.reset_button);
     EXPECT_EQ(reading.mode, OperatingMode::kHoldToRun)
         << "the strictest one, until the system has another one";
@@ -139,7 +140,8 @@ TEST_F(ArmReaderTest, ReaderWithoutAUsableResolutionRefusesToStart) {
 /// Turns the selector in the middle of a run.
 class ArmModesTest : public ArmReaderTest {
   protected:
-    void run(OperatingMode first, OperatingMode second, std::uint64_t hangs_at = kFrames) {
+    void run(OperatingMode first, OperatingMode second, std::uint64_t hangs_at = kFrames,
+             std::uint64_t turned_back_at = kFrames) {
         ASSERT_EQ(sut_.configure(make_scale()), Status::kOk);
         sut_.set_modes(modes_);
         ASSERT_EQ(executive_.initialize(), Status::kOk);
@@ -149,11 +151,13 @@ class ArmModesTest : public ArmReaderTest {
             ASSERT_EQ(host_.set_duration(parts_.other, is_hanging ? virtual_time::kNever : 10_us),
                       Status::kOk);
             inputs_.mode_selected = {};
-            inputs_.mode_selected[2U - static_cast<std::size_t>(frame < kTurned ? first : second)] = true;
+            const bool is_first = frame < kTurned || frame >= turned_back_at;
+            inputs_.mode_selected[2U - static_cast<std::size_t>(is_first ? first : second)] = true;
             runner_.run_frame();
             const JointReading& now = sut_.reading.get_published();
             seen_.push_back(now.mode);
-            is_fault_.push_back((now.panel_faults & to_bit(ArmFault::kModeSelector)) != 0U);
+            is_fault_.push_back(now.is_mode_changing ||
+                                (now.panel_faults & to_bit(ArmFault::kModeSelector)) != 0U);
         }
     }
 
@@ -201,6 +205,17 @@ TEST_F(ArmModesTest, ASwitchThatFailsEndsInTheSafeModeAndStaysAFault) {
         EXPECT_TRUE(is_fault_[i]) << i;
         EXPECT_NE(seen_[i], OperatingMode::kAutomatic) << i;
     }
+}
+
+TEST_F(ArmModesTest, ASelectorThatIsTurnedBackDuringAModeSwitchIsAFaultUntilTheSystemIsBack) {
+    verifies("SWR-SAF-061", Technique::kErrorGuessing, Polarity::kViolation);
+    run(OperatingMode::kReducedSpeed, OperatingMode::kAutomatic, kFrames, kTurned + 3U);
+
+    for (std::size_t i = kTurned; i < kTurned + 2U * kSwitchFrames; ++i) {
+        EXPECT_TRUE(is_fault_[i]) << i;
+    }
+    EXPECT_EQ(seen_.back(), OperatingMode::kReducedSpeed);
+    EXPECT_FALSE(is_fault_.back());
 }
 
 TEST_F(ArmModesTest, AHangOutsideASwitchChangesNoMode) {

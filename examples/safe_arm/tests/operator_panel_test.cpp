@@ -223,18 +223,6 @@ TEST_F(OperatorPanelTest, TheSelectorGivesTheModeAndNoneIsTheModeOfTheSystem) {
     }
 }
 
-TEST_F(OperatorPanelTest, AModeThatTheSystemIsNotInIsAFaultInEachFrame) {
-    verifies("SWR-SAF-036", Technique::kStateTransition, Polarity::kViolation);
-    for (const OperatingMode from : kModes) {
-        for (const OperatingMode to : kModes) {
-            mode_ = from;
-            EXPECT_EQ(select(from).faults, 0U);
-            EXPECT_EQ(select(to).faults, from == to ? 0U : to_bit(ArmFault::kModeSelector));
-            EXPECT_EQ(step_for(1000_ms), from == to ? 0U : to_bit(ArmFault::kModeSelector));
-        }
-    }
-}
-
 TEST_F(OperatorPanelTest, AfterAFailedSwitchEachPositionIsAFault) {
     verifies("SWR-SAF-036", Technique::kEquivalenceClasses, Polarity::kViolation);
     mode_ = OperatingMode::kSwitchFailed;

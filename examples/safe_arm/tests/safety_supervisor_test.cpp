@@ -355,12 +355,12 @@ TEST_F(SafetySupervisorTest, AChangeOfTheModeNeedsResetAndStart) {
     EXPECT_EQ(step().state, SafeState::kSelfTest);
 }
 
-TEST_F(SafetySupervisorTest, TheArmDoesNotStartBeforeTheSystemHasFollowedTheSelector) {
+TEST_F(SafetySupervisorTest, TheSystemMayFollowTheSelectorInTheSelfTest) {
     verifies("SWR-SAF-062", Technique::kStateTransition);
-    reading_.panel_faults = to_bit(ArmFault::kModeSelector);
+    reading_.is_mode_changing = true;
     step();
     step();
-    reading_.panel_faults = 0U;
+    reading_.is_mode_changing = false;
     step_until(SafeState::kStandby, 400);
     EXPECT_EQ(sut_.get_state(), SafeState::kStandby) << "no fault of the self test";
     EXPECT_EQ(operate().state, SafeState::kOperational);
@@ -368,7 +368,7 @@ TEST_F(SafetySupervisorTest, TheArmDoesNotStartBeforeTheSystemHasFollowedTheSele
 
 TEST_F(SafetySupervisorTest, ASystemThatDoesNotFollowTheSelectorIsAFaultAfterTheSelfTest) {
     verifies("SWR-SAF-062", Technique::kFaultInjection, Polarity::kViolation);
-    reading_.panel_faults = to_bit(ArmFault::kModeSelector);
+    reading_.is_mode_changing = true;
     for (int i = 0; i < 400; ++i) {
         ASSERT_FALSE(step().brake_release) << i;
     }
@@ -382,18 +382,49 @@ TEST_F(SafetySupervisorTest, ATurnedSelectorStopsAMovingArmInEachMode) {
          {OperatingMode::kHoldToRun, OperatingMode::kReducedSpeed, OperatingMode::kAutomatic}) {
         reading_.mode = mode;
         ASSERT_EQ(operate().state, SafeState::kOperational);
-        reading_.panel_faults = to_bit(ArmFault::kModeSelector);
+        reading_.is_mode_changing = true;
         state_.is_standing = false;
         EXPECT_EQ(step().state, SafeState::kProtectiveStopSs1);
         state_.is_standing = true;
         reading_.brakes_closed = true;
         reading_.torque_enabled = false;
         step_until(SafeState::kSafe, 400);
-        reading_.panel_faults = 0U;
+        reading_.is_mode_changing = false;
         reading_.reset_button = true;
         step();
         reading_.reset_button = false;
     }
+}
+
+TEST_F(SafetySupervisorTest, AStartWhileTheModeChangesIsRejectedUntilAReset) {
+    verifies("SWR-SAF-062", Technique::kStateTransition, Polarity::kViolation);
+    step_until(SafeState::kStandby, 400);
+    reading_.is_mode_changing = true;
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kSafe);
+    reading_.is_mode_changing = false;
+    reading_.start_button = false;
+    EXPECT_EQ(step().state, SafeState::kSafe);
+    reading_.start_button = true;
+    EXPECT_EQ(step().state, SafeState::kSafe);
+    reading_.reset_button = true;
+    EXPECT_EQ(step().state, SafeState::kSelfTest);
+}
+
+TEST_F(SafetySupervisorTest, AFailedSelectorEndsTheSelfTestAndAFailedModeSwitchStopsTheArm) {
+    verifies("SWR-SAF-062", Technique::kFaultInjection, Polarity::kViolation);
+    step();
+    reading_.panel_faults = to_bit(ArmFault::kModeSelector);
+    EXPECT_EQ(step().state, SafeState::kSafe) << "before any torque against the brakes";
+    reading_.panel_faults = 0U;
+    reading_.reset_button = true;
+    step();
+    reading_.reset_button = false;
+    ASSERT_EQ(operate().state, SafeState::kOperational);
+    state_.is_standing = false;
+    reading_.mode = OperatingMode::kSwitchFailed;
+    reading_.panel_faults = to_bit(ArmFault::kModeSelector);
+    EXPECT_EQ(step().state, SafeState::kProtectiveStopSs1);
 }
 
 TEST_F(SafetySupervisorTest, AControlThatTheModeDoesNotNeedNeitherStopsTheArmNorPreventsItsStart) {

@@ -27,7 +27,7 @@ bool SafetyCycle::has_begun(const ReactionDemand& demand, const StopOutputs& app
     return !applied.torque_enable || (demand.reaction < Reaction::kSto && applied.stop_requested);
 }
 
-bool SafetyCycle::is_answered(FaultIndex fault, std::size_t mode) const noexcept {
+bool SafetyCycle::has_reaction(FaultIndex fault, std::size_t mode) const noexcept {
     return find_demand(state_.reactions_, fault, mode).reaction != Reaction::kNone;
 }
 

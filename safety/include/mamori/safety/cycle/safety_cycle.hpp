@@ -103,8 +103,8 @@ class SafetyCycle : public Component, public CycleComponent {
     virtual void command(SafeState state, const StopOutputs& outputs) noexcept = 0;
     /// @}
 
-    /// Whether the table answers the fault with a reaction in this mode, and not with Reaction::kNone.
-    bool is_answered(FaultIndex fault, std::size_t mode) const noexcept;
+    /// Whether the table reacts to the fault in this mode, with other than Reaction::kNone.
+    bool has_reaction(FaultIndex fault, std::size_t mode) const noexcept;
     /// The watchdog took the service of the cycle before.
     bool is_watchdog_serviced() const noexcept { return is_watchdog_serviced_; }
 
