@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import re
 import subprocess
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -114,9 +115,12 @@ class Move:
     letter: tuple[int, ...]
 
 
+Way = tuple[Hashable, set[str], Any]
+
+
 @dataclass(frozen=True)
 class Run:
-    """spin's result for one formula: None, or the moves of a run that violates it. `loop`: the first move of the endless part of the run,
+    """spin's result for one formula: None, or the moves of a run that violates it; no moves for a possible condition. `loop`: the first move of the endless part of the run,
     if the run is infinite."""
 
     name: str
@@ -126,9 +130,10 @@ class Run:
 
 def list_moves(machine: Machine) -> list[Move]:
     """Each step that the formulas distinguish."""
-    moves = []
+    moves: list[Move] = []
     for source in range(len(machine.labels)):
-        moves += list(_list_moves_of(machine, source))
+        ways = drop_guarded(((move.target, move.sees), {move.guard} - {""}, move) for move in _list_moves_of(machine, source))
+        moves += [move for _, _, move in ways]
         if source != machine.corrupted:
             moves.append(Move(source, machine.corrupted, 0, "", ()))
     return moves
@@ -146,6 +151,18 @@ def _list_moves_of(machine: Machine, source: int) -> Iterator[Move]:
                 at = max((place for place in places.tolist() if place[-1] in times), key=lambda place: place[-1])
                 letter = (demands[at[0]], at[1], at[2], standstill, at[3], at[4], at[5], reset, *at[6:])
                 yield Move(source, int(target), sees, guard, letter)
+
+
+def drop_guarded(ways: Iterable[Way]) -> Iterator[Way]:
+    """Without the moves that another one between the same situations makes possible whenever their guards hold. `ways`: what a move leads
+    to, its guards, and the move."""
+    kept: dict[Hashable, list[Way]] = {}
+    for way in sorted(ways, key=lambda way: len(way[1])):
+        alike = kept.setdefault(way[0], [])
+        if not any(other[1] <= way[1] for other in alike):
+            alike.append(way)
+    for alike in kept.values():
+        yield from alike
 
 
 def list_guards(limit: str, times: set[int], counter: str = "age") -> Iterator[tuple[str, set[int]]]:
@@ -207,7 +224,15 @@ def check_all(text: str, properties: Sequence[Property], folder: Path, name: str
     (folder / name).write_text(text, encoding="utf-8")
     _call(("spin", "-a", name), folder)
     _call(COMPILE, folder)
-    return {formula: _check_one(formula, folder) for formula, _ in list_formulas(properties)}
+    runs = {}
+    for one in properties:
+        word = one.name.replace("-", "_")
+        if one.always:
+            runs[word] = _check_one(word, folder)
+        for number in range(len(one.possible)):
+            formula = f"{word}_{number}"
+            runs[formula] = Run(formula, () if _is_broken(formula, DEPTH_MAX, folder) else None)
+    return runs
 
 
 def _check_one(name: str, folder: Path) -> Run:

@@ -144,10 +144,12 @@ class Model:
                 sees = self._list_sights(node, there, letter, is_quiet)
                 sees += KEEPS_COMMAND if not answer.open and not answer.told_now else 0
                 ways.setdefault((look_at(there), sees, guard), {}).setdefault(time, (letter, call))
+        moves = []
         for (target, sees, guard), by_time in ways.items():
             for closing_guard, times in promela.list_guards("closes_within", set(by_time), "closing"):
                 letter, call = by_time[max(times)]
-                yield Move(view, target, sees, tuple(word for word in (guard, closing_guard) if word), letter, call)
+                moves.append(Move(view, target, sees, tuple(word for word in (guard, closing_guard) if word), letter, call))
+        yield from (move for _, _, move in promela.drop_guarded(((one.target, one.sees), set(one.guards), one) for one in moves))
         if node.machine != self.pair.machine.corrupted:
             # The outputs keep their values until the next cycle.
             flipped = View(self.pair.machine.corrupted, view.brakes, view.state, view.torque, view.open)

@@ -208,7 +208,11 @@ class Explorer final {
     }
 
     std::size_t find_or_add(const Image& image) {
+        if (last_ < images_.size() && images_[last_] == image) {
+            return last_;  // most often: times of one class follow each other
+        }
         const auto [place, is_new] = numbers_.insert({image, images_.size()});
+        last_ = place->second;
         if (is_new) {
             if (images_.size() == kSituationsMax) {
                 throw std::runtime_error("the machine has no end of situations");
@@ -344,6 +348,7 @@ class Explorer final {
     std::vector<std::int64_t> elapsed_;
     std::size_t entry_time_at_{0U};
     std::map<Image, std::size_t> numbers_;
+    std::size_t last_{0U};  ///< found
     std::vector<Image> images_;
     Relation relation_;
 };
