@@ -265,6 +265,23 @@ TEST_F(BrakeSequenceTest, BrakesThatReportAreOpenOrCannotReportAreNotOverdue) {
     EXPECT_FALSE(with_contacts_.is_overdue(Instant{5000}));
 }
 
+TEST_F(BrakeSequenceTest, BrakesCloseFromTheirCommandUntilTheyHaveBittenOrTheirTimeHasElapsed) {
+    verifies("SWR-CYC-037", Technique::kBoundaryValues);
+    for (BrakeSequence* const sut : {&with_contacts_, &without_contacts_}) {
+        EXPECT_TRUE(sut->apply(SafeState::kOperational, Instant{1000}) ==
+                    StopOutputs({true, true, false, false}));
+        EXPECT_FALSE(sut->is_closing(Instant{1000})) << "told nothing yet";
+        EXPECT_TRUE(sut->apply(SafeState::kSafe, Instant{1000}) == kOff);
+        EXPECT_TRUE(sut->is_closing(Instant{1000}));
+        EXPECT_TRUE(sut->is_closing(Instant{1029}));
+        EXPECT_FALSE(sut->is_closing(Instant{1030}));
+        EXPECT_FALSE(sut->is_closing(Instant{999})) << "a clock that ran backwards";
+    }
+    static_cast<void>(with_contacts_.confirm(SafeState::kSafe, true, false, Instant{1001}));
+    static_cast<void>(with_contacts_.confirm(SafeState::kSafe, true, true, Instant{1002}));
+    EXPECT_FALSE(with_contacts_.is_closing(Instant{1002}));
+}
+
 TEST_F(BrakeSequenceTest, BrakesCloseInTheCycleInWhichTorqueGoes) {
     verifies("SWR-FSM-034");
 

@@ -11,7 +11,7 @@ import json
 import shutil
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,8 +28,9 @@ from mamori_trace.base.text_file import write_text
 from verification.safe_state.brakes.coupling import Pair
 from verification.safe_state.brakes.defects import BRAKE_DEFECTS
 from verification.safe_state.brakes.relation import read_brakes
-from verification.safe_state.brakes.sequence import Brakes, make_cycles
+from verification.safe_state.brakes.sequence import make_cycles
 from verification.safe_state.brakes.subject import BrakeSubject
+from verification.safe_state.brakes.torque import read_torque
 from verification.safe_state.defects import DEFECTS, Defect
 from verification.safe_state.machine import Machine, merge
 from verification.safe_state.machine_subject import MachineSubject
@@ -38,9 +39,10 @@ from verification.safe_state.relation import read_relation, run_program
 
 TARGET = "mamori_safe_state_relation"
 BRAKE_TARGET = "mamori_brake_sequence_relation"
+CYCLE_TARGET = "mamori_safety_cycle_relation"
 TOOLS = {"z3": "z3", "spin": "spin", "gcc": "gcc"}
 """Programs, and the Debian packages that contain them."""
-AnyDefect = Defect[Machine] | Defect[Brakes]
+AnyDefect = Defect[Machine] | Defect[Pair]
 
 
 @dataclass(frozen=True)
@@ -73,7 +75,7 @@ def prove_safe_state(request: Request, project: Project = Project(ROOT)) -> int:
         _build(project, request.jobs)
         programs = project.build / "verification" / "safe_state"
         try:
-            proofs = _prove(run_program(programs / TARGET), run_program(programs / BRAKE_TARGET), defect)
+            proofs = _prove(lambda name: run_program(programs / name), defect)
         except InputError as error:  # the project provides the programs: the error is not a wrong input of the user
             raise WorkError(str(error)) from error
         record = _keep(proofs, defect, request.out or _get_folder(project, defect))
@@ -113,10 +115,10 @@ def _build(project: Project, jobs: int) -> None:
     log.parent.mkdir(parents=True, exist_ok=True)
     log.write_text("", encoding="utf-8")
     commands = (("cmake", "-S", str(project.root), "--preset", project.preset),
-                ("cmake", "--build", str(project.build), "--target", TARGET, BRAKE_TARGET, "--parallel", str(jobs)))  # fmt: skip
+                ("cmake", "--build", str(project.build), "--target", TARGET, BRAKE_TARGET, CYCLE_TARGET, "--parallel", str(jobs)))  # fmt: skip
     for command in commands:
         if run_logged(command, log, project.root, lambda _: None) != 0:
-            raise WorkError(f"{TARGET} and {BRAKE_TARGET} could not be built; the compiler's words are in {log}")
+            raise WorkError(f"{TARGET}, {BRAKE_TARGET} and {CYCLE_TARGET} could not be built; the compiler's words are in {log}")
 
 
 def _get_folder(project: Project, defect: AnyDefect | None) -> Path:
@@ -125,24 +127,28 @@ def _get_folder(project: Project, defect: AnyDefect | None) -> Path:
     return folder / "defects" / defect.breaks if defect else folder
 
 
-def _prove(text: str, brake_text: str, defect: AnyDefect | None) -> list[Proof]:
+def _prove(run_target: Callable[[str], str], defect: AnyDefect | None) -> list[Proof]:
     """For each seeded defect, the command checks the properties of the part that contains the defect."""
-    relation, brake_relation = read_relation(text, Path(TARGET)), read_brakes(brake_text, Path(BRAKE_TARGET))
-    machine, brakes = merge(relation), make_cycles(brake_relation)
-    facts = {"situations": len(relation.labels), "merged_situations": len(machine.labels), "steps": relation.steps,
-             "corrupted_objects": relation.corrupted_objects}  # fmt: skip
-    brake_facts = {"brake_situations": len(brake_relation.fitted), "merged_brake_situations": len(brakes.fitted),
-                   "brake_calls": brake_relation.calls}  # fmt: skip
+    text = run_target(TARGET)
+    relation = read_relation(text, Path(TARGET))
+    machine = merge(relation)
     own = next((one for one in DEFECTS if one is defect), None)
     of_brakes = next((one for one in BRAKE_DEFECTS if one is defect), None)
     proofs = []
     with tempfile.TemporaryDirectory(prefix="mamori-prove-") as scratch:
         if not of_brakes:
+            facts = {"situations": len(relation.labels), "merged_situations": len(machine.labels), "steps": relation.steps,
+                     "corrupted_objects": relation.corrupted_objects}  # fmt: skip
             subject = MachineSubject(own.seed(machine) if own else machine)
             proofs.append(_prove_part(subject, facts, {"relation.json": text}, Path(scratch)))
         if not own:
-            brake_subject = BrakeSubject(Pair(machine, of_brakes.seed(brakes) if of_brakes else brakes))
-            proofs.append(_prove_part(brake_subject, brake_facts, {"brakes.json": brake_text}, Path(scratch)))
+            texts = {"brakes.json": run_target(BRAKE_TARGET), "torque.json": run_target(CYCLE_TARGET)}
+            relation_of_brakes = read_brakes(texts["brakes.json"], Path(BRAKE_TARGET))
+            pair = Pair(machine, make_cycles(relation_of_brakes), read_torque(texts["torque.json"], machine.states, Path(CYCLE_TARGET)))
+            facts = {"brake_situations": len(relation_of_brakes.fitted), "merged_brake_situations": len(pair.brakes.fitted),
+                     "brake_calls": relation_of_brakes.calls, "cycle_situations": pair.torque.situations,
+                     "cycles": pair.torque.cycles}  # fmt: skip
+            proofs.append(_prove_part(BrakeSubject(of_brakes.seed(pair) if of_brakes else pair), facts, texts, Path(scratch)))
     return proofs
 
 
@@ -186,7 +192,7 @@ def show(results: Sequence[Result], defect: AnyDefect | None, screen: Screen) ->
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("machine", choices=("safe-state",), metavar="safe-state", help="the safe-state machine and its brake sequence")
+    parser.add_argument("machine", choices=("safe-state",), metavar="safe-state", help="the safe-state machine and its brake sequence in the safety cycle")
     parser.add_argument("--json", action="store_true", help="print the result as JSON instead of a table")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder for the files; default: build/host-release/evidence/safe_state")
     parser.add_argument("--defect", metavar="NAME",
@@ -202,7 +208,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 COMMAND = Command(
     add_arguments, run, "prove properties of the compiled safe-state machine and brake sequence with z3 and spin",
-    "Calls the compiled step of the safe-state machine and the compiled functions of the brake sequence for every situation and every "
-    "combination of inputs. Makes models for z3 and spin from the results and proves the properties of both with them. A violated property is "
-    "shown as steps from power-up. Writes relation.json, machine.smt2, machine.pml, brakes.json, brakes.smt2, brakes.pml and proof.json.",
+    "Calls the compiled step of the safe-state machine, the compiled functions of the brake sequence and the compiled safety cycle for every "
+    "situation and every combination of inputs. Makes models for z3 and spin from the results and proves the properties with them. A violated "
+    "property is shown as steps from power-up. Writes relation.json, machine.smt2, machine.pml, brakes.json, brakes.smt2, brakes.pml, "
+    "torque.json and proof.json.",
     {0: "all properties are proved", 1: "a property is not proved, or a prover failed"})  # fmt: skip

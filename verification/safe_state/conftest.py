@@ -1,30 +1,48 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shared fixtures of the prover tests: the built programs, their output, and the machine and brakes read from it."""
+"""Shared fixtures of the prover tests: one run of the command, the relations that it stored, and the machine and brakes read from them."""
 
 from __future__ import annotations
 
+import contextlib
+import io
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from mamori_tools.host.project import ROOT, Project
+from mamori_tools.command.main import main
 from verification.safe_state.brakes.coupling import Pair
 from verification.safe_state.brakes.relation import BrakeRelation, read_brakes
 from verification.safe_state.brakes.sequence import Brakes, make_cycles
-from verification.safe_state.command import BRAKE_TARGET, TARGET
+from verification.safe_state.brakes.torque import read_torque
 from verification.safe_state.machine import Machine, merge
-from verification.safe_state.relation import Relation, read_relation, run_program
+from verification.safe_state.relation import Relation, read_relation
 
 
-def run_built(target: str) -> str:
-    program = Project(ROOT).build / "verification" / "safe_state" / target
-    assert program.exists(), f"{program} is missing; run ./mamori build"
-    return run_program(program)
+@dataclass(frozen=True)
+class Proved:
+    """What the command did: its exit status, the record that it printed, and the folder of its files."""
+
+    status: int
+    record: Mapping[str, Any]
+    folder: Path
 
 
 @pytest.fixture(scope="session")
-def text() -> str:
-    return run_built(TARGET)
+def proved(tmp_path_factory: pytest.TempPathFactory) -> Proved:
+    folder = tmp_path_factory.mktemp("proof") / "out"
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        status = main(["prove", "safe-state", "--json", "--out", str(folder), "--jobs", "1"])
+    assert printed.getvalue(), "the programs are not built, or a prover is missing"
+    return Proved(status, json.loads(printed.getvalue()), folder)
+
+
+@pytest.fixture(scope="session")
+def text(proved: Proved) -> str:
+    return (proved.folder / "relation.json").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="session")
@@ -38,8 +56,8 @@ def machine(relation: Relation) -> Machine:
 
 
 @pytest.fixture(scope="session")
-def brake_text() -> str:
-    return run_built(BRAKE_TARGET)
+def brake_text(proved: Proved) -> str:
+    return (proved.folder / "brakes.json").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="session")
@@ -53,5 +71,10 @@ def brakes(brake_relation: BrakeRelation) -> Brakes:
 
 
 @pytest.fixture(scope="session")
-def pair(machine: Machine, brakes: Brakes) -> Pair:
-    return Pair(machine, brakes)
+def torque_text(proved: Proved) -> str:
+    return (proved.folder / "torque.json").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="session")
+def pair(machine: Machine, brakes: Brakes, torque_text: str) -> Pair:
+    return Pair(machine, brakes, read_torque(torque_text, machine.states, Path("torque.json")))

@@ -120,8 +120,8 @@ Way = tuple[Hashable, set[str], Any]
 
 @dataclass(frozen=True)
 class Run:
-    """spin's result for one formula: None, or the moves of a run that violates it; no moves for a possible condition. `loop`: the first move of the endless part of the run,
-    if the run is infinite."""
+    """spin's result for one formula: None, or the moves of a run that violates it; no moves for a possible condition. `loop`: the first move
+    of the endless part of the run, if the run is infinite."""
 
     name: str
     moves: tuple[int, ...] | None

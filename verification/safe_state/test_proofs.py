@@ -4,9 +4,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import replace
-from pathlib import Path
+from collections.abc import Callable
+from functools import cache
 
 import pytest
 
@@ -15,6 +14,7 @@ from verification.safe_state.brakes.coupling import Pair
 from verification.safe_state.brakes.defects import BRAKE_DEFECTS
 from verification.safe_state.brakes.properties import BRAKE_PROPERTIES
 from verification.safe_state.brakes.subject import BrakeSubject
+from verification.safe_state.conftest import Proved
 from verification.safe_state.defects import DEFECTS
 from verification.safe_state.machine_subject import MachineSubject
 from verification.safe_state.properties import PROPERTIES, RANKS
@@ -26,18 +26,17 @@ ALL_DEFECTS = [defect.breaks for defect in DEFECTS] + [defect.breaks for defect 
 
 
 @pytest.fixture(scope="module")
-def results(pair: Pair, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Result]:
-    folder = tmp_path_factory.mktemp("proof")
-    return {result.property.name: result for subject in (MachineSubject(pair.machine), BrakeSubject(pair)) for result in prove(subject, folder)}
-
-
-def prove_faulty(name: str, pair: Pair, folder: Path) -> list[Result]:
-    """@return the properties that are refuted for the part with the seeded defect of the property `name`."""
+def prove_faulty(pair: Pair, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], list[Result]]:
+    """@return a function that returns the properties that are refuted for the part with the seeded defect of a property."""
     of_machine = {defect.breaks: defect for defect in DEFECTS}
     of_brakes = {defect.breaks: defect for defect in BRAKE_DEFECTS}
-    subject = (MachineSubject(of_machine[name].seed(pair.machine)) if name in of_machine
-               else BrakeSubject(replace(pair, brakes=of_brakes[name].seed(pair.brakes))))  # fmt: skip
-    return [result for result in prove(subject, folder) if not result.is_proved]
+
+    @cache
+    def prove_one(name: str) -> list[Result]:
+        subject = MachineSubject(of_machine[name].seed(pair.machine)) if name in of_machine else BrakeSubject(of_brakes[name].seed(pair))
+        return [result for result in prove(subject, tmp_path_factory.mktemp("defect")) if not result.is_proved]
+
+    return prove_one
 
 
 @pytest.mark.parametrize(
@@ -45,15 +44,16 @@ def prove_faulty(name: str, pair: Pair, folder: Path) -> list[Result]:
     [pytest.param(one.name, marks=pytest.mark.verifies(one.requirement, technique="state_transition", polarity="violation"))
      for one in ALL_PROPERTIES],
 )  # fmt: skip
-def test_property_of_the_compiled_part_is_proved(results: Mapping[str, Result], name: str) -> None:
-    assert results[name].is_proved, "\n".join(results[name].steps)
-    assert results[name].verdicts
+def test_property_of_the_compiled_part_is_proved(proved: Proved, name: str) -> None:
+    row = next(row for row in proved.record["properties"] if row["name"] == name)
+    assert row["proved"], "\n".join(row["steps"])
+    assert row["provers"]
 
 
 @pytest.mark.verifies("SWR-FSM-024", technique="fault_injection", polarity="violation")
 @pytest.mark.parametrize("name", ALL_DEFECTS)
-def test_seeded_defect_breaks_its_property_and_no_other(pair: Pair, tmp_path: Path, name: str) -> None:
-    broken = prove_faulty(name, pair, tmp_path)
+def test_seeded_defect_breaks_its_property_and_no_other(prove_faulty: Callable[[str], list[Result]], name: str) -> None:
+    broken = prove_faulty(name)
 
     assert [result.property.name for result in broken] == [name]
     assert set(broken[0].verdicts.values()) == {REFUTED}, "each prover that checks it finds it"
@@ -66,7 +66,7 @@ def test_seeded_defect_breaks_its_property_and_no_other(pair: Pair, tmp_path: Pa
 
 @pytest.mark.verifies("SWR-FSM-024", technique="requirements_based", polarity="violation")
 def test_each_property_has_one_defect_a_requirement_and_a_sentence() -> None:
-    requirements = (ROOT / "requirements" / "software" / "safe_state.md").read_text(encoding="utf-8")
+    requirements = "".join((ROOT / "requirements" / "software" / name).read_text(encoding="utf-8") for name in ("safe_state.md", "cycle.md"))
 
     assert [one.name for one in ALL_PROPERTIES] == ALL_DEFECTS
     assert len({one.name for one in ALL_PROPERTIES}) == len(ALL_PROPERTIES), "--defect distinguishes them"
@@ -83,8 +83,8 @@ def test_properties_know_each_state_of_the_machine(relation: Relation) -> None:
 
 
 @pytest.mark.verifies("SWR-FSM-023", technique="state_transition", polarity="violation")
-def test_breach_is_shown_from_power_up_on(pair: Pair, tmp_path: Path) -> None:
-    broken = prove_faulty("corrupted-state-locks-out", pair, tmp_path)
+def test_breach_is_shown_from_power_up_on(prove_faulty: Callable[[str], list[Result]]) -> None:
+    broken = prove_faulty("corrupted-state-locks-out")
 
     assert len(broken) == 1
     assert broken[0].steps[-2].endswith("a bit of the stored state flips; torque off, brakes closed")
@@ -92,8 +92,8 @@ def test_breach_is_shown_from_power_up_on(pair: Pair, tmp_path: Path) -> None:
 
 
 @pytest.mark.verifies("SWR-FSM-023", technique="state_transition", polarity="violation")
-def test_breach_under_the_machine_is_shown_with_the_inputs_of_both(pair: Pair, tmp_path: Path) -> None:
-    broken = prove_faulty("ss1-confirmed-by-its-brakes", pair, tmp_path)
+def test_breach_under_the_machine_is_shown_with_the_inputs_of_both(prove_faulty: Callable[[str], list[Result]]) -> None:
+    broken = prove_faulty("ss1-confirmed-by-its-brakes")
 
     last = broken[0].steps[-1]
     assert last.startswith("ProtectiveStopSs1 -> Safe: demand ")

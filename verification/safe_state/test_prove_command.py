@@ -8,31 +8,29 @@ from pathlib import Path
 
 import pytest
 
-from mamori_tools.command.main import main
 from mamori_tools.host.project import Project
 from mamori_trace.base.errors import InputError
 from verification.safe_state.brakes.properties import BRAKE_PROPERTIES
 from verification.safe_state.command import Request, prove_safe_state
+from verification.safe_state.conftest import Proved
 from verification.safe_state.properties import PROPERTIES
 
-BRAKE_FILES = ["brakes.json", "brakes.pml", "brakes.smt2"]
-MACHINE_FILES = ["machine.pml", "machine.smt2"]
-COMMON_FILES = ["proof.json", "relation.json"]
+BRAKE_FILES = {"brakes.json", "brakes.pml", "brakes.smt2", "torque.json"}
+MACHINE_FILES = {"machine.pml", "machine.smt2", "relation.json"}
 NAMES = [one.name for one in (*PROPERTIES, *BRAKE_PROPERTIES)]
 
 
 @pytest.mark.verifies("SWR-FSM-025")
-def test_all_is_proved_printed_as_json_and_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    status = main(["prove", "safe-state", "--json", "--out", str(tmp_path / "out"), "--jobs", "1"])
-
-    record = json.loads(capsys.readouterr().out)
-    assert status == 0
+def test_all_is_proved_printed_as_json_and_kept(proved: Proved) -> None:
+    record = proved.record
+    assert proved.status == 0
     assert record["schema"] == "mamori.safe_state_proof/1"
     assert (record["situations"], record["merged_situations"], record["corrupted_objects"]) == (82, 16, 1296)
     assert (record["brake_situations"], record["merged_brake_situations"]) == (134, 10)
+    assert (record["cycle_situations"], record["cycles"]) == (7662, 8826624)
     assert [row["name"] for row in record["properties"] if row["proved"]] == NAMES
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == BRAKE_FILES + MACHINE_FILES + COMMON_FILES
-    assert json.loads((tmp_path / "out" / "proof.json").read_text(encoding="utf-8")) == record
+    assert {path.name for path in proved.folder.iterdir()} == {*BRAKE_FILES, *MACHINE_FILES, "proof.json"}
+    assert json.loads((proved.folder / "proof.json").read_text(encoding="utf-8")) == record
 
 
 @pytest.mark.verifies("SWR-FSM-025", technique="fault_injection", polarity="violation")
@@ -56,7 +54,7 @@ def test_defect_of_the_brakes_is_judged_by_their_properties_alone(tmp_path: Path
     assert "seeded defect: An SS1 that ends in STO keeps torque for its brakes." in shown
     assert "sto-waits-for-no-brakes does not hold: " in shown
     assert shown.strip().endswith(f"{len(BRAKE_PROPERTIES)} properties: {len(BRAKE_PROPERTIES) - 1} proved, 1 refuted")
-    assert sorted(path.name for path in tmp_path.iterdir()) == [*BRAKE_FILES, "proof.json"]
+    assert {path.name for path in tmp_path.iterdir()} == {*BRAKE_FILES, "proof.json"}
 
 
 @pytest.mark.verifies("SWR-FSM-025", technique="fault_injection", polarity="violation")

@@ -296,11 +296,10 @@ bool SafetyCycle::have_brakes_failed(const CycleInputs& machine, SafeState state
     return state == SafeState::kProtectiveStopSs1 && machine.can_hold && machine.is_standing && is_over;
 }
 
-/// Where only the position is unknown, torque carries the machine until its brakes report closed. Any other
+/// Where only the position is unknown, torque carries the machine until its brakes have bitten. Any other
 /// cause of STO, such as a drive that is not trusted, ends it at once.
 bool SafetyCycle::carries_until_closed(SafeState state, bool can_hold, Instant now) const noexcept {
-    const bool is_closing = state_.brakes_.is_waiting() && !state_.brakes_.is_overdue(now);
-    if (state != SafeState::kSafe || !can_hold || !was_torque_wanted_ || !is_closing) {
+    if (state != SafeState::kSafe || !can_hold || !was_torque_wanted_ || !state_.brakes_.is_closing(now)) {
         return false;
     }
     bool is_demanded = false;

@@ -15,6 +15,11 @@ bool BrakeSequence::have_bitten(Instant now) const noexcept {
     return limits_.has_contacts ? are_closed_ && (have_reported_open_ || is_time_over) : is_time_over;
 }
 
+bool BrakeSequence::is_closing(Instant now) const noexcept {
+    const Duration elapsed = calc_elapsed(told_at_, now);
+    return is_told_ && !have_bitten(now) && elapsed >= Duration{0} && elapsed < limits_.closes_within;
+}
+
 bool BrakeSequence::confirm(SafeState state, bool is_standing, bool are_closed, Instant now) noexcept {
     are_closed_ = are_closed;
     have_reported_open_ = !are_closed || (is_told_ && have_reported_open_);
@@ -29,8 +34,8 @@ bool BrakeSequence::confirm(SafeState state, bool is_standing, bool are_closed, 
 
 StopOutputs BrakeSequence::apply(SafeState state, Instant now) noexcept {
     StopOutputs outputs = calc_stop_outputs(state);
-    const bool is_closing = state == SafeState::kProtectiveStopSs1 && is_told_;
-    if (is_closing || !outputs.brake_release) {
+    const bool is_ending = state == SafeState::kProtectiveStopSs1 && is_told_;
+    if (is_ending || !outputs.brake_release) {
         outputs.brake_release = false;
         tell_to_close(now);
     } else {
@@ -38,11 +43,8 @@ StopOutputs BrakeSequence::apply(SafeState state, Instant now) noexcept {
     }
     // A reset leads from the hold to standby with nothing wrong: no reason to let the machine sag. Every
     // other state takes torque away at once.
-    const Duration elapsed = calc_elapsed(told_at_, now);
-    const bool is_before_bite =
-        !have_bitten(now) && elapsed >= Duration{0} && elapsed < limits_.closes_within;
     const bool was_held = before_ == SafeState::kStandstillHold || is_handing_over_;
-    is_handing_over_ = state == SafeState::kStandby && was_held && is_before_bite;
+    is_handing_over_ = state == SafeState::kStandby && was_held && is_closing(now);
     if (is_handing_over_) {
         outputs.torque_enable = true;
         outputs.stop_requested = true;

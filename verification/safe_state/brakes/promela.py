@@ -14,7 +14,7 @@ from itertools import product
 import numpy as np
 
 from verification.safe_state import promela
-from verification.safe_state.brakes.coupling import Letter, Node, Pair
+from verification.safe_state.brakes.coupling import STO, Letter, Node, Pair, list_holds
 from verification.safe_state.brakes.sequence import SS1, Call, Memory
 from verification.safe_state.promela import WITHIN
 from verification.safe_state.properties import Property
@@ -22,7 +22,6 @@ from verification.safe_state.relation import VALUES
 
 CLOSES_WITHIN = 2
 """In cycles; shorter than the bound of an SS1, as applications must configure it."""
-STO = VALUES["demand"].index("Sto")
 START, BY_BRAKES, KEEPS_AGE, KEEPS_COMMAND, FLIPS = 1, 2, 4, 8, 16
 
 HEAD = """\
@@ -41,12 +40,14 @@ byte closing = 0;           /* cycles since the command to close */
 /* What an external observer sees between two cycles. */
 byte situation = 0;
 byte state = SelfTest;      /* that apply() was given */
-bool torque = 0;
+bool torque = 0;            /* that the sequence gives */
+bool kept = 0;              /* torque that the safety cycle keeps */
 bool open = 0;
 bool fitted = 0;
 bool start = 1;
 bool by_brakes = 0;
 byte handover_cycles = 0;   /* with torque in standby */
+byte kept_cycles = 0;
 
 inline look_up(n) {{
   if
@@ -64,7 +65,8 @@ inline settle() {{
     :: (sees & 16) != 0 -> skip
     :: else ->
       closing = ((sees & 8) != 0 -> closing + (closing <= CLOSES_WITHIN) : 0);
-      handover_cycles = (state == Standby && torque -> handover_cycles + (handover_cycles <= CLOSES_WITHIN) : 0)
+      handover_cycles = (state == Standby && torque -> handover_cycles + (handover_cycles <= CLOSES_WITHIN) : 0);
+      kept_cycles = (kept -> kept_cycles + (kept_cycles <= CLOSES_WITHIN) : 0)
     fi;
     situation = to;
     to = 0
@@ -98,6 +100,7 @@ class View:
     state: str
     torque: bool
     open: bool
+    kept: bool
 
 
 @dataclass(frozen=True)
@@ -140,19 +143,22 @@ class Model:
         for standing, contacts, time in product((False, True), (False, True), range(4)):
             is_confirmed = self.pair.confirms(node, standing, contacts, time)
             for letter, is_quiet, guard in self._halves[node.machine, is_confirmed]:
-                there, call, answer = self.pair.step(node, letter, standing, contacts, time)
-                sees = self._list_sights(node, there, letter, is_quiet)
-                sees += KEEPS_COMMAND if not answer.open and not answer.told_now else 0
-                ways.setdefault((look_at(there), sees, guard), {}).setdefault(time, (letter, call))
+                for hold in list_holds(letter):
+                    there, call, answer = self.pair.step(node, letter, standing, contacts, time, hold)
+                    sees = self._list_sights(node, there, letter, is_quiet)
+                    sees += KEEPS_COMMAND if not answer.open and not answer.told_now else 0
+                    ways.setdefault((look_at(there), sees, guard), {}).setdefault(time, (letter, call))
         moves = []
         for (target, sees, guard), by_time in ways.items():
             for closing_guard, times in promela.list_guards("closes_within", set(by_time), "closing"):
                 letter, call = by_time[max(times)]
                 moves.append(Move(view, target, sees, tuple(word for word in (guard, closing_guard) if word), letter, call))
-        yield from (move for _, _, move in promela.drop_guarded(((one.target, one.sees), set(one.guards), one) for one in moves))
+        # A cycle that needs no start is possible with one, and no formula distinguishes them otherwise: a start counts like a guard.
+        rows = (((one.target, one.sees & ~START), {*one.guards, *(("start",) if one.sees & START else ())}, one) for one in moves)
+        yield from (move for _, _, move in promela.drop_guarded(rows))
         if node.machine != self.pair.machine.corrupted:
             # The outputs keep their values until the next cycle.
-            flipped = View(self.pair.machine.corrupted, view.brakes, view.state, view.torque, view.open)
+            flipped = View(self.pair.machine.corrupted, view.brakes, view.state, view.torque, view.open, view.kept)
             yield Move(view, flipped, 0, (), (), None)
 
     def _list_sights(self, node: Node, there: Node, letter: Letter, is_quiet: bool) -> int:
@@ -194,6 +200,7 @@ class Model:
         moves = [f"    :: situation == {numbers[view]} ->\n      if\n" + "\n".join(rows) + "\n      fi" for view, rows in branches.items()]
         starts = [f"  :: situation = {numbers[view]}; fitted = {int(brakes.fitted[view.brakes])}" for view in firsts]
         views = [f"  :: n == {number} -> state = {view.state}; torque = {int(view.torque)}; open = {int(view.open)};"
+                 f" kept = {int(view.kept)};"
                  f" fitted = {int(brakes.fitted[view.brakes])}" for view, number in numbers.items()]  # fmt: skip
         return promela.fill(HEAD, machine, properties, closes_within=CLOSES_WITHIN, firsts="\n".join(starts), views="\n".join(views),
                             moves="\n".join(moves))  # fmt: skip
@@ -201,4 +208,5 @@ class Model:
 
 def look_at(node: Node) -> View:
     is_before_first_cycle = node.memory == Memory()
-    return View(node.machine, node.brakes, node.memory.last, node.memory.torque, not node.memory.closed and not is_before_first_cycle)
+    return View(node.machine, node.brakes, node.memory.last, node.memory.torque, not node.memory.closed and not is_before_first_cycle,
+                node.is_kept)  # fmt: skip

@@ -4,7 +4,8 @@
 Names in the properties for z3 (smt.py): confirm() gets the state `q`, apply() the state `r`. `standing` and `contacts` are measured.
 `confirmed`, `torque_out`, `open_out` and `overdue_out` are results. `last`, `was_torque`, `was_closed` and `stood` are the past. `closing`
 is the time since the command, on the clock of an external observer. `exact`: the sequence uses that time, without a jump of its clock.
-Properties under the machine also use the names of the machine.
+Properties under the machine also use the names of the machine. In the safety cycle, `had_torque` and `final_torque` are the torque before and
+after the cycle, `can_hold` and `cause` inputs (torque.py), and `kept_t` is torque that the sequence does not give.
 Names in the properties for spin (promela.py): the values that an external observer sees between two cycles.
 
 @satisfies SWR-FSM-023      Design: docs/design/safe_state.md#properties-of-the-brakes
@@ -15,6 +16,9 @@ from __future__ import annotations
 from verification.safe_state.properties import NOTHING_WRONG, Induction, Property
 
 HAVE_BITTEN = "(ite fitted contacts (>= closing closes_within))"
+
+
+MAY_HOLD = "(= r Safe) (= cause Cause_BrakesFirst) can_hold had_torque"
 
 
 def remember_command(condition: str) -> str:
@@ -106,6 +110,42 @@ BRAKE_PROPERTIES: tuple[Property, ...] = (
         "brakes-end-stops", "SWR-FSM-027",
         "Brakes with contacts and brakes without end an SS1 before its bound: nothing is proved of brakes that do nothing.",
         possible=("fitted && by_brakes", "!fitted && by_brakes"),
+        is_coupled=True,
+    ),
+    Property(
+        "brakes-first-waits-for-the-brakes", "SWR-CYC-030",
+        "If only the position is unknown and torque can hold, STO takes no torque away before the contacts report closed or the closing time"
+        " has passed since the command.",
+        induction=Induction(
+            invariant=remember_command("was_closed"),
+            claim=f"(=> (and {MAY_HOLD} exact (< closing closes_within) was_closed (not contacts)) final_torque)"),
+        is_coupled=True,
+    ),
+    Property(
+        "brakes-first-waits-for-stuck-contacts", "SWR-CYC-037",
+        "No report of the contacts takes the torque away in the cycle in which the brakes are told to close.",
+        step=f"(=> (and {MAY_HOLD} (not was_closed)) final_torque)",
+        is_coupled=True,
+    ),
+    Property(
+        "brakes-first-ends-with-the-closing-time", "SWR-CYC-030",
+        "The cycle keeps torque for less than the closing time after the command to close, with closed brakes, on any clock.",
+        induction=Induction(
+            invariant=remember_command("was_closed"),
+            claim="(=> kept_t (and (not open_out) (< closing closes_within)))"),
+        always="[] (kept_cycles <= CLOSES_WITHIN)",
+        is_coupled=True,
+    ),
+    Property(
+        "another-sto-ends-torque-at-once", "SWR-CYC-030",
+        "The cycle keeps no torque when STO is demanded for any other reason or none, lost trust locks out, or torque cannot hold.",
+        step="(=> kept_t (and (= cause Cause_BrakesFirst) can_hold (not lock_out) (< self_test Test_Failed)))",
+        is_coupled=True,
+    ),
+    Property(
+        "cycle-keeps-torque-only", "SWR-CYC-030",
+        "The safety cycle gives the torque of the brake sequence, and more only in the safe state after a cycle with torque.",
+        step="(and (=> torque_out final_torque) (=> kept_t (and (= r Safe) had_torque)))",
         is_coupled=True,
     ),
 )  # fmt: skip

@@ -27,7 +27,7 @@ APPLY_ANSWER = (*OUTPUTS, "told_now", "next")
 
 @dataclass(frozen=True)
 class BrakeRelation:
-    """`confirm` has the shape (situations, states, 2, 2, 4, 3), `apply` (situations, states, 4, 6), `overdue` (situations, 4). The last
+    """`confirm` has the shape (situations, states, 2, 2, 4, 3), `apply` (situations, states, 4, 6), `overdue` and `closing` (situations, 4). The last
     axis of the first two holds the answers above. The last state represents all invalid numbers. `firsts`: the situations after power-up,
     with and without contacts. `fitted`: whether the brakes of each situation have contacts."""
 
@@ -35,6 +35,7 @@ class BrakeRelation:
     confirm: Array
     apply: Array
     overdue: Array
+    closing: Array
     firsts: tuple[int, int]
     fitted: tuple[bool, ...]
     calls: int
@@ -53,13 +54,13 @@ def read_brakes(text: str, path: Path) -> BrakeRelation:
     count, kinds = len(rows), len(states)
     confirm = np.stack([_read_calls(row.at("confirm"), count, (kinds, 2, 2, 4), len(CONFIRM_ANSWER)) for row in rows])
     apply = np.stack([_read_calls(row.at("apply"), count, (kinds, 4), len(APPLY_ANSWER)) for row in rows])
-    overdue = np.stack([_read_overdue(row.at("overdue")) for row in rows])
+    overdue, closing = (np.stack([_read_levels(row.at(name)) for row in rows]) for name in ("overdue", "closing"))
     first = node.at("first")
     firsts = (first.at("with_contacts").index(count), first.at("without_contacts").index(count))
     fitted = _find_fitted(confirm, apply, firsts[0])
     if fitted[firsts[1]]:
         raise node.complain("says that brakes with contacts turn into brakes without")
-    return BrakeRelation(states, confirm, apply, overdue, firsts, fitted, node.at("calls").count())
+    return BrakeRelation(states, confirm, apply, overdue, closing, firsts, fitted, node.at("calls").count())
 
 
 def _read_calls(node: JsonNode, count: int, shape: tuple[int, ...], width: int) -> Array:
@@ -76,7 +77,7 @@ def _read_calls(node: JsonNode, count: int, shape: tuple[int, ...], width: int) 
     return np.array(rows, dtype=np.int64).reshape(*shape, width)
 
 
-def _read_overdue(node: JsonNode) -> Array:
+def _read_levels(node: JsonNode) -> Array:
     levels = [item.index(2) for item in node.items()]
     if len(levels) != len(TIMES):
         raise node.complain(f"has {len(levels)} answers for {len(TIMES)} times")

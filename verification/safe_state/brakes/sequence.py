@@ -36,24 +36,27 @@ class Memory:
 
 @dataclass(frozen=True)
 class Call:
-    """Inputs of the two calls of a cycle. `before`: the state given to confirm(), `after`: the state given to apply()."""
+    """Inputs of the two calls of a cycle. `before`: the state given to confirm(), `after`: the state given to apply(). `hold`: for the cycle
+    around the calls (torque.py); the sequence does not see it."""
 
     before: str
     standing: bool
     contacts: bool
     after: str
     time: int
+    hold: tuple[int, int] = (0, 0)
 
 
 @dataclass(frozen=True)
 class Answer:
-    """Results of a cycle. `told_now`: the time of the command to close starts in this cycle."""
+    """Results of a cycle. `told_now`: the time of the command to close starts in this cycle. `closing`: the brakes may not hold yet."""
 
     confirmed: bool
     torque: bool
     open: bool
     told_now: bool
     overdue: bool
+    closing: bool
     next: int
 
 
@@ -73,7 +76,7 @@ class Brakes:
         middle = (number, before, int(call.standing), int(call.contacts))
         values = {name: int(array[(*middle, after, call.time)]) for name, array in self.cycle.items()}
         return Answer(bool(self.confirmed[(*middle, call.time)]), bool(values["torque"]), bool(values["open"]),
-                      bool(values["told_now"]), bool(values["overdue"]), values["next"])  # fmt: skip
+                      bool(values["told_now"]), bool(values["overdue"]), bool(values["closing"]), values["next"])  # fmt: skip
 
     @cached_property
     def roads(self) -> Mapping[tuple[int, Memory], tuple[tuple[int, Memory], Call] | None]:
@@ -113,7 +116,7 @@ def make_cycles(relation: BrakeRelation) -> Brakes:
     told = answers[..., 4] | told_first[..., None, :]
     final = np.where(told == 1, WITHIN, np.arange(4))
     cycle = {"torque": answers[..., 0], "open": answers[..., 1], "told_now": told, "overdue": relation.overdue[answers[..., 5], final],
-             "next": answers[..., 5]}  # fmt: skip
+             "closing": relation.closing[answers[..., 5], final], "next": answers[..., 5]}  # fmt: skip
     return _merge(Brakes(relation.states, relation.fitted, relation.firsts, confirm[..., 0], cycle))
 
 

@@ -12,10 +12,11 @@ from verification.safe_state import smt
 from verification.safe_state.brakes.coupling import Pair
 from verification.safe_state.brakes.relation import TIMES
 from verification.safe_state.brakes.sequence import Memory
+from verification.safe_state.brakes.torque import CAUSES, UNKNOWN
 from verification.safe_state.properties import Induction, Property
 
 MEMORY = ("was_torque", "was_closed", "stood")
-CALL = ("q", "standing", "contacts", "r", "brake_time")
+CALL = ("q", "standing", "contacts", "r", "brake_time", "can_hold", "cause")
 
 
 def write_model(pair: Pair) -> str:
@@ -27,9 +28,10 @@ def write_model(pair: Pair) -> str:
         f"(define-fun Invalid () Int {len(brakes.states)})",
         *(f"(define-fun Closing_{name} () Int {digit})" for digit, name in enumerate(TIMES)),
         f"(define-fun own_torque ((a Int)) Bool (or {' '.join(own)}))",
-        *(f"(declare-const {name} Int)" for name in ("b", "q", "r", "last", "brake_time")),
-        *(f"(declare-const {name} Bool)" for name in ("standing", "contacts", *MEMORY)),
-        f"(assert (and (<= 0 brake_time) (< brake_time {len(TIMES)})))",
+        *(f"(define-fun Cause_{name} () Int {digit})" for digit, name in enumerate(CAUSES)),
+        *(f"(declare-const {name} Int)" for name in ("b", "q", "r", "last", "brake_time", "cause")),
+        *(f"(declare-const {name} Bool)" for name in ("standing", "contacts", "can_hold", "kept", *MEMORY)),
+        f"(assert (and (<= 0 brake_time) (< brake_time {len(TIMES)}) (<= 0 cause) (< cause {len(CAUSES)})))",
         f"(define-fun fitted () Bool (or {' '.join(fitted)}))",
     ]
     # The states of the machine are numbered from 1.
@@ -39,7 +41,12 @@ def write_model(pair: Pair) -> str:
     for name, array in brakes.cycle.items():
         lines += smt.write_diagram("b_t" if name == "next" else f"{name}_level", "b", array, [*before, ("(- r 1)", "Int"), time])
     lines += [f"(define-fun {word} () Bool (= {level}_level 1))" for word, level in (
-        ("confirmed", "confirmed"), ("torque_out", "torque"), ("open_out", "open"), ("told_now", "told_now"), ("overdue_out", "overdue"))]  # fmt: skip
+        ("confirmed", "confirmed"), ("torque_out", "torque"), ("open_out", "open"), ("told_now", "told_now"), ("overdue_out", "overdue"),
+        ("closing_out", "closing"))]  # fmt: skip
+    lines += ["(define-fun had_torque () Bool (or was_torque kept))"]
+    lines += smt.write_diagram("final_level", "(- r 1)", pair.torque.after, [
+        ("torque_out", "Bool"), ("closing_out", "Bool"), ("had_torque", "Bool"), ("can_hold", "Bool"), ("cause", "Int")])  # fmt: skip
+    lines += ["(define-fun final_torque () Bool (= final_level 1))", "(define-fun kept_t () Bool (and final_torque (not torque_out)))"]
     lines += ["(define-fun stood_now () Bool (and (= q ProtectiveStopSs1) (or standing stood)))",
               "(define-fun stood_t () Bool (and (= r ProtectiveStopSs1) stood_now))"]  # fmt: skip
     lines += _write_known(pair)
@@ -49,10 +56,11 @@ def write_model(pair: Pair) -> str:
 def _write_known(pair: Pair) -> list[str]:
     """The reachable situations with their pasts, alone and under the machine."""
     alone = [f"(and (= b {number}) {_write_memory(memory)})" for number, memory in sorted(pair.brakes.roads)]
-    both = [f"(and (= s {node.machine}) (= b {node.brakes}) {_write_memory(node.memory)})" for node in sorted(pair.roads)]
+    both = [f"(and (= s {node.machine}) (= b {node.brakes}) {_write_memory(node.memory)} {smt.write_literal('kept', node.is_kept)})"
+            for node in sorted(pair.roads)]  # fmt: skip
     words = "(b Int) (last Int) (was_torque Bool) (was_closed Bool) (stood Bool)"
     return [f"(define-fun known_alone ({words}) Bool (or\n {_join(alone)}))",
-            f"(define-fun known_both ((s Int) {words}) Bool (or\n {_join(both)}))"]  # fmt: skip
+            f"(define-fun known_both ((s Int) {words} (kept Bool)) Bool (or\n {_join(both)}))"]  # fmt: skip
 
 
 def _join(rows: Iterable[str]) -> str:
@@ -68,19 +76,22 @@ NOW = "b last was_torque was_closed stood"
 NEXT = "b_t r torque_out (not open_out) stood_t"
 ALONE = (f"(and (known_alone {NOW}) (<= 1 r) (<= r Invalid)"
          " (or (= q last) (and (= q LockedOut) (= r LockedOut))))")  # fmt: skip
-COUPLED = f"(and (known_both s {NOW}) {smt.KNOWN} (= q (state s)) (= r (state t)) (= standstill confirmed))"
+COUPLED = (f"(and (known_both s {NOW} kept) {smt.KNOWN} (= q (state s)) (= r (state t)) (= standstill confirmed)"
+           " (= (>= demand Demand_Sto) (not (= cause Cause_None))))")  # fmt: skip
 
 
 def list_history_queries(pair: Pair) -> list[str]:
-    """Base of the pasts: each cycle, and each bit flip of the machine, leads from known pasts to known pasts."""
-    powered = [f"(and (= b {first}) {_write_memory(Memory())})" for first in pair.brakes.firsts]
+    """Base of the pasts: each cycle, and each bit flip of the machine, leads from known pasts to known pasts. The compiled safety cycle was
+    executed with each letter of the models."""
+    powered = [f"(and (= b {first}) {_write_memory(Memory())} (not kept))" for first in pair.brakes.firsts]
     powered_up = f"(assert (or {' '.join(powered)}))"
-    flipped = f"(known_both {pair.machine.corrupted} {NOW})"
+    flipped = f"(known_both {pair.machine.corrupted} {NOW} kept)"
     return [
-        f"{powered_up}\n(assert (not (and (known_alone {NOW}) (known_both {pair.machine.first} {NOW}))))",
+        f"{powered_up}\n(assert (not (and (known_alone {NOW}) (known_both {pair.machine.first} {NOW} kept))))",
         f"(assert (and {ALONE} (not (known_alone {NEXT}))))",
-        f"(assert (and {COUPLED} (not (known_both t {NEXT}))))",
+        f"(assert (and {COUPLED} (not (known_both t {NEXT} kept_t))))",
         f"(assert (and {COUPLED} (not {flipped})))",
+        f"(assert (and {COUPLED} (= final_level {UNKNOWN})))",
     ]
 
 

@@ -17,6 +17,7 @@ from verification.safe_state.brakes.coupling import Letter, Node, Pair
 from verification.safe_state.brakes.properties import BRAKE_PROPERTIES
 from verification.safe_state.brakes.relation import TIMES
 from verification.safe_state.brakes.sequence import Answer, Call, Memory
+from verification.safe_state.brakes.torque import CAUSES
 from verification.safe_state.graph import list_road
 from verification.safe_state.machine import Past, describe_letter
 from verification.safe_state.promela import Run
@@ -33,7 +34,7 @@ class BrakeSubject(Subject):
     pair: Pair
     name = "brakes"
     properties = BRAKE_PROPERTIES
-    constants = ("s", "b", "last", *smt.MEMORY, *smt.CALL, *INPUTS)
+    constants = ("s", "b", "last", *smt.MEMORY, "kept", *smt.CALL, *INPUTS)
 
     @cached_property
     def model(self) -> promela.Model:
@@ -55,8 +56,9 @@ class BrakeSubject(Subject):
         states = dict(enumerate(self.pair.brakes.states, start=1))
         memory = Memory(states[values["last"]], *(bool(values[name]) for name in smt.MEMORY))
         # Values that the query does not constrain may be any number.
-        call = Call(states[values["q"]], bool(values["standing"]), bool(values["contacts"]), states[values["r"]], values["brake_time"])
-        node = Node(values["s"], values["b"], memory)
+        call = Call(states[values["q"]], bool(values["standing"]), bool(values["contacts"]), states[values["r"]], values["brake_time"],
+                    (values["can_hold"], values["cause"]))  # fmt: skip
+        node = Node(values["s"], values["b"], memory, bool(values["kept"]))
         if next(one for one in BRAKE_PROPERTIES if one.name == query.owner).is_coupled:
             road = [(here, cycle.letter, cycle.call) for here, cycle in list_road(self.pair.roads, node)]
             return self._describe_cycles([*road, (node, tuple(values[name] for name in INPUTS), call)])
@@ -86,12 +88,21 @@ class BrakeSubject(Subject):
             if call is None:
                 lines.append(f"{before.name} -> {machine.labels[machine.corrupted].state}: {words}")
                 continue
-            there, made, answer = self.pair.step(node, letter, call.standing, call.contacts, call.time)
+            there, made, answer = self.pair.step(node, letter, call.standing, call.contacts, call.time, call.hold)
             if made != call:
                 raise WorkError(f"spin and z3 step from {call.before} to {call.after}, the machine from {made.before} to {made.after}")
             past = machine.advance(past, node.machine, there.machine, letter)
-            lines.append(f"{before.name} -> {made.after}: {words}; {describe_answer(call, answer, self.pair.brakes.fitted[node.brakes])}")
+            lines.append(f"{before.name} -> {made.after}: {words}; {describe_answer(call, answer, self.pair.brakes.fitted[node.brakes])}"
+                         + describe_torque(made, answer, there))  # fmt: skip
         return lines
+
+
+def describe_torque(call: Call, answer: Answer, there: Node) -> str:
+    """What the safety cycle does with torque that the brake sequence does not give, if STO is demanded."""
+    can_hold, cause = call.hold
+    if answer.torque or not cause:
+        return ""
+    return f"; STO by {CAUSES[cause]}, {'can hold' if can_hold else 'cannot hold'}, torque {'kept' if there.is_kept else 'not kept'}"
 
 
 def describe_answer(call: Call, answer: Answer, is_fitted: bool) -> str:

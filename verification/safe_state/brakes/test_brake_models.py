@@ -20,6 +20,8 @@ from verification.safe_state.brakes.coupling import Pair
 from verification.safe_state.brakes.relation import TIMES, WITHIN, BrakeRelation, read_brakes
 from verification.safe_state.brakes.sequence import Brakes, Call
 from verification.safe_state.brakes.subject import BrakeSubject
+from verification.safe_state.brakes.torque import BRAKES_FIRST, UNKNOWN, read_torque
+from verification.safe_state.machine import Machine
 from verification.safe_state.promela import Run
 from verification.safe_state.test_models import drop
 
@@ -147,6 +149,38 @@ def test_brakes_whose_kinds_mix_and_text_that_is_none_are_refused(brake_text: st
         read_brakes(json.dumps(document), Path("brakes.json"))
     with pytest.raises(InputError, match="not valid JSON"):
         read_brakes("", Path("brakes.json"))
+
+
+CELLS = {
+    "has 6 cells, wanted 7": lambda document: drop(document, "rows", 5, 0),
+    "the properties speak about": lambda document: drop(document, "letter", 2),
+    "is 'Sofa'": lambda document: set_cell(document, "Sofa", "rows", 5, 0),
+    "is 3, beyond the 3 rows": lambda document: set_cell(document, 3, "rows", 5, 5),
+    "is 2, beyond the 2 rows": lambda document: set_cell(document, 2, "rows", 5, 6),
+}
+
+
+@pytest.mark.verifies("SWR-FSM-022", technique="equivalence_classes", polarity="violation")
+@pytest.mark.parametrize("complaint", CELLS)
+def test_incomplete_relation_of_the_cycle_is_refused_in_one_line(torque_text: str, machine: Machine, complaint: str) -> None:
+    document = json.loads(torque_text)
+    CELLS[complaint](document)
+
+    with pytest.raises(InputError) as error:
+        read_torque(json.dumps(document), machine.states, Path("torque.json"))
+
+    assert complaint in str(error.value)
+    assert "print it again with mamori_safety_cycle_relation" in str(error.value)
+
+
+@pytest.mark.verifies("SWR-PRF-052", technique="back_to_back")
+def test_executed_cycles_have_the_torque_of_the_sequence_except_while_brakes_close(pair: Pair) -> None:
+    torque = pair.torque
+    for place, value in np.ndenumerate(torque.after):
+        state, (own, *others) = torque.states[place[0]], place[1:]
+        if value != UNKNOWN:
+            assert value == (own or (state == "Safe" and others == [1, 1, 1, BRAKES_FIRST])), (state, *place[1:])
+    assert np.count_nonzero(torque.after[torque.states.index("Safe"), 0] == UNKNOWN) == 0
 
 
 @pytest.mark.verifies("SWR-FSM-032")

@@ -55,10 +55,12 @@ struct BrakeSituation {
     std::vector<CallAnswer> confirm;
     std::vector<CallAnswer> apply;
     std::array<bool, kClosingTimeCount> is_overdue{};
+    std::array<bool, kClosingTimeCount> is_closing{};
 };
 
 inline bool operator==(const BrakeSituation& a, const BrakeSituation& b) {
-    return a.confirm == b.confirm && a.apply == b.apply && a.is_overdue == b.is_overdue;
+    return a.confirm == b.confirm && a.apply == b.apply && a.is_overdue == b.is_overdue &&
+           a.is_closing == b.is_closing;
 }
 
 /// The behaviour of the sequence. Situation 0 is that after power-up with contacts.
@@ -187,7 +189,10 @@ class BrakeExplorer final {
                     answer.outputs = sequence.apply(state, now);
                 });
             }
-            situation.is_overdue = ask_overdue(images_[i]);
+            situation.is_overdue = ask(
+                images_[i], [](const Sequence& sequence, Instant now) { return sequence.is_overdue(now); });
+            situation.is_closing = ask(
+                images_[i], [](const Sequence& sequence, Instant now) { return sequence.is_closing(now); });
             relation_.situations[i] = situation;
         }
     }
@@ -247,17 +252,19 @@ class BrakeExplorer final {
         known = answer;
     }
 
-    /// @return the result of is_overdue() in each class of times.
-    std::array<bool, kClosingTimeCount> ask_overdue(const Image& image) {
+    /// @return the result of a const function in each class of times.
+    template <typename Question>
+    std::array<bool, kClosingTimeCount> ask(const Image& image, Question question) {
         std::array<std::optional<bool>, kClosingTimeCount> answers;
         for (const std::int64_t elapsed : elapsed_) {
             for (const std::int64_t base : kBases) {
                 const Sequence& sequence = load(with_command(image, base));
-                const bool answer = sequence.is_overdue(Instant{base + elapsed});
+                const bool answer = question(sequence, Instant{base + elapsed});
                 ++relation_.calls;
                 std::optional<bool>& known = answers[static_cast<std::size_t>(classify(elapsed))];
                 if (known.value_or(answer) != answer) {
-                    throw std::runtime_error("what is overdue depends on more than the closing time");
+                    throw std::runtime_error(
+                        "what is overdue or closing depends on more than the closing time");
                 }
                 known = answer;
             }

@@ -35,10 +35,12 @@ Json make_situation(const BrakeSituation& situation) {
                          int{outputs.hold_requested}, int{answer.is_told_now}, answer.next});
     }
     Json overdue;
-    for (const bool is_overdue : situation.is_overdue) {
-        overdue.push_back(int{is_overdue});
+    Json closing;
+    for (std::size_t time = 0U; time < kClosingTimeCount; ++time) {
+        overdue.push_back(int{situation.is_overdue[time]});
+        closing.push_back(int{situation.is_closing[time]});
     }
-    return {{"overdue", overdue}, {"confirm", confirm}, {"apply", apply}};
+    return {{"overdue", overdue}, {"closing", closing}, {"confirm", confirm}, {"apply", apply}};
 }
 
 Json make_document(const BrakeRelation& relation) {

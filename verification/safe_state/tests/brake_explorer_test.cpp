@@ -41,6 +41,7 @@ class RelationWalk {
     }
 
     bool is_overdue(Instant now) const { return get().is_overdue[classify(now)]; }
+    bool is_closing(Instant now) const { return get().is_closing[classify(now)]; }
 
   private:
     static std::size_t get_digit(SafeState state) {
@@ -99,6 +100,7 @@ TEST(BrakeExplorerTest, RelationSaysWhatTheCompiledSequenceAnswersToRandomCalls)
                 ASSERT_TRUE(walk.apply(state, now) == sut.apply(state, now)) << "run " << run;
             }
             ASSERT_EQ(walk.is_overdue(now), sut.is_overdue(now)) << "run " << run;
+            ASSERT_EQ(walk.is_closing(now), sut.is_closing(now)) << "run " << run;
         }
     }
 }
@@ -161,6 +163,7 @@ class Extended {
     }
     StopOutputs apply(SafeState state, Instant now) noexcept { return sequence_.apply(state, now); }
     bool is_overdue(Instant now) const noexcept { return sequence_.is_overdue(now); }
+    bool is_closing(Instant now) const noexcept { return sequence_.is_closing(now); }
 
   protected:
     BrakeSequence sequence_;
@@ -253,7 +256,7 @@ TEST(BrakeExplorerTest, SequenceThatDependsOnTimeInAnotherWayIsRefused) {
     EXPECT_EQ(refuse<SlowSequence>(),
               "a call keeps another time of the command than its own or the one before");
     EXPECT_EQ(refuse<TimedSequence>(), "the sequence keeps its command in another way than as one instant");
-    EXPECT_EQ(refuse<PatientSequence>(), "what is overdue depends on more than the closing time");
+    EXPECT_EQ(refuse<PatientSequence>(), "what is overdue or closing depends on more than the closing time");
 }
 
 TEST(BrakeExplorerTest, SequenceThatTellsInvalidNumbersApartIsRefused) {

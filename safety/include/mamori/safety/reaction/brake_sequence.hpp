@@ -64,6 +64,11 @@ class BrakeSequence final {
         return is_told_ && limits_.has_contacts && !are_closed_;
     }
 
+    /// @return true while the brakes have been told to close and may not hold yet: they have not bitten, see
+    ///         confirm(), and `closes_within` has not elapsed since the command. False when `now` is before
+    ///         it.
+    [[nodiscard]] bool is_closing(Instant now) const noexcept;
+
     /// @return true when the brakes were told to close more than `closes_within` ago, or later than `now`,
     ///         and their contacts did not say so in the last confirm(). False without contacts.
     [[nodiscard]] bool is_overdue(Instant now) const noexcept {
