@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the output of `mamori_safety_cycle_relation`: when the compiled safety cycle keeps torque that its machine and brakes do not give.
 
-@satisfies SWR-PRF-053      Design: docs/design/safe_state.md#the-cycle-in-the-models
+@satisfies SWR-FSM-022      Design: docs/design/safe_state.md#the-cycle-in-the-models
 """
 
 from __future__ import annotations

@@ -242,8 +242,7 @@ class Director final {
 
 /// The same table in virtual time, up to the last window in real time.
 std::vector<Opening> run_in_virtual_time(const std::vector<TimedOpening>& openings) {
-    if (openings.empty() || executive.stop() != Status::kOk || executive.finalize() != Status::kOk ||
-        executive.initialize() != Status::kOk || executive.start() != Status::kOk) {
+    if (openings.empty() || !restart()) {
         return {};
     }
     const Opening& first = openings.front().opening;

@@ -57,7 +57,7 @@ bool write_course(const CampaignRequest& request, const Course& course, const ch
     file.add("skipped_max", kSkippedMax);
     file.add("reaction_time_ns", kReactionTime.ns);
     file.add("kinds", {"kill", "stop", "flood", "corrupt"});
-    file.add("faults", {"silent", "flooding", "corrupt", "none"});
+    file.add("faults", {"silent", "flooding", "corrupt", "internal", "none"});
     file.add("knows_foreign", course.knows_foreign);
     file.add("host", course.host);
     file.add<Injected>("injections", course.injections,

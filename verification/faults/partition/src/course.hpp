@@ -21,7 +21,7 @@ enum class Kind : std::uint8_t { kKill, kStop, kFlood, kCorrupt };
 inline constexpr std::size_t kKindCount{4U};
 
 /// Name of the fault in the safety system; in the order of its reaction table.
-enum class PartitionFault : std::uint16_t { kSilent, kFlooding, kCorrupt, kCount };
+enum class PartitionFault : std::uint16_t { kSilent, kFlooding, kCorrupt, kInternal, kCount };
 
 inline constexpr Duration kFrame = 1_ms;
 /// After this number of consecutive major frames without a valid reply, the partition counts as ended.

@@ -30,10 +30,12 @@ inline constexpr std::size_t kAnswerCapacity = ports::posix_rt::PartitionReceive
 
 /// After missing replies or a flood, the drive stops along its path. After corruption, it stops immediately.
 inline constexpr auto kFaults =
-    parts(faults<PartitionFault::kSilent, PartitionFault::kFlooding, PartitionFault::kCorrupt>(),
+    parts(faults<PartitionFault::kSilent, PartitionFault::kFlooding, PartitionFault::kCorrupt,
+                 PartitionFault::kInternal>(),
           react(PartitionFault::kSilent, safety::Reaction::kSs1, within(kReactionTime)),
           react(PartitionFault::kFlooding, safety::Reaction::kSs1, within(kReactionTime)),
-          react(PartitionFault::kCorrupt, safety::Reaction::kSto, within(kReactionTime)));
+          react(PartitionFault::kCorrupt, safety::Reaction::kSto, within(kReactionTime)),
+          react(PartitionFault::kInternal, safety::Reaction::kSto, within(kReactionTime)));
 inline constexpr auto kReactions = system(frame(kFrame), kFaults).reactions;
 
 /// Records of the components, in memory that was allocated before the run; rows beyond the capacity are
@@ -69,6 +71,8 @@ extern ports::posix_rt::FrameReader answer_reader;
 extern ports::posix_rt::FrameWriter request_writer;
 
 extern Executive& executive;
+/// Runs the executive again from power-up on: a safety cycle accepts one initialisation only.
+bool restart() noexcept;
 extern std::array<ports::posix_rt::WindowThread, kWindowCount> window_threads;
 
 }  // namespace mamori::partition_faults
