@@ -19,15 +19,16 @@ function(mamori_version_header)
     configure_file("${PROJECT_SOURCE_DIR}/cmake/version.hpp.in" "${PROJECT_BINARY_DIR}/generated/mamori/version.hpp" @ONLY)
 endfunction()
 
-# Flags that every C++ target of the project has.
+# Flags that every target of the project has.
 #   -ffp-contract=off: the same bytes everywhere (a fused multiply-add rounds once where two operations round twice).
 #   -UNDEBUG: assertions stay on in every configuration, and Debian's Simbody headers need it to match its library.
 function(mamori_common_flags target)
     target_compile_features(${target} PUBLIC cxx_std_17)
-    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
     target_compile_options(${target} PRIVATE
-        -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
-        -Woverloaded-virtual -Wdouble-promotion $<$<BOOL:${MAMORI_WARNINGS_AS_ERRORS}>:-Werror> -ffp-contract=off -UNDEBUG)
+        -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
+        "$<$<COMPILE_LANGUAGE:CXX>:-Wold-style-cast;-Wnon-virtual-dtor;-Woverloaded-virtual>"
+        -Wdouble-promotion $<$<BOOL:${MAMORI_WARNINGS_AS_ERRORS}>:-Werror> -ffp-contract=off -UNDEBUG)
 endfunction()
 
 # mamori_library(<layer> [TARGET_SUBSET] [COMPONENT name] SOURCES ... DEPENDS ... PRIVATE_DEPENDS ...)

@@ -515,5 +515,11 @@ TEST(CompileFailTest, ASystemFunctionOfAnotherTypeIsRejected) {
                    "a system function is Status f(ContextHandle) noexcept");
 }
 
+TEST(CompileFailTest, APortInCWithAnotherPayloadTypeIsRefused) {
+    verifies("SWR-CIF-003", Technique::kInterface, Polarity::kViolation);
+    expect_refused("c_ports", "c_input_type", "same payload type in C and in C++");
+    expect_refused("c_ports", "c_output_type", "same payload type in C and in C++");
+}
+
 }  // namespace
 }  // namespace mamori

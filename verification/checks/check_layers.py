@@ -23,13 +23,14 @@ from verification.checks.code_size import check_share, count_code, list_tracked
 from verification.checks.component_folders import check_order, check_place
 from verification.checks.death_tests import check_death_tests
 from verification.checks.deviations import check_deviations
-from verification.checks.layer_table import HOST_SOURCES, LISTED_STD, TEST_INCLUDES, Layer, find_package, get_layer, get_module
+from verification.checks.layer_table import HOST_SOURCES, LISTED_C, LISTED_STD, TEST_INCLUDES, Layer, find_package, get_layer, get_module
 from verification.checks.manual_samples import check_samples
 from verification.checks.target_limits import MEASURED_HEADERS, check_headers, check_size, check_words
 from verification.checks.unused_headers import check_unused
 from verification.checks.wording import WORDING, check_wording
 
 ROOT = Path(__file__).resolve().parents[2]
+SUFFIXES = (".hpp", ".cpp", ".h", ".c")
 FOLDERS = ("kernel", "safety", "ports", "simbody_sim", "examples", "tools", "verification", "trace")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?P<open>[<"])(?P<path>[^>"]+)[>"]', re.MULTILINE)
 POSIX = re.compile(r"(?:sys/)?[a-z]+\.h")
@@ -77,7 +78,7 @@ def check_texts(root: Path) -> list[Finding]:
 def _is_target_code(root: Path, path: Path) -> bool:
     parts = path.relative_to(root).parts
     layer = get_layer(parts)
-    return path.suffix in (".hpp", ".cpp") and layer is not None and layer.target and "tests" not in parts
+    return path.suffix in SUFFIXES and layer is not None and layer.target and "tests" not in parts
 
 
 def _check_file(root: Path, path: Path) -> Iterator[Finding]:
@@ -89,10 +90,10 @@ def _check_file(root: Path, path: Path) -> Iterator[Finding]:
         return
     layer = get_layer(parts)
     if layer is None:
-        if path.suffix in (".hpp", ".cpp"):
+        if path.suffix in SUFFIXES:
             yield Finding(name, 1, "include", "this folder has no C++; see the layer table of CONTRIBUTING.md")
         return
-    if path.suffix in (".hpp", ".cpp"):
+    if path.suffix in SUFFIXES:
         text = path.read_text(encoding="utf-8")
         for line, message in _check_includes(root, path, layer, text, is_test="tests" in parts):
             yield Finding(name, line, "include", message)
@@ -124,7 +125,7 @@ def _check_includes(root: Path, path: Path, layer: Layer, text: str, is_test: bo
         elif match["open"] == '"' and (found := _find_beside(root, path, include)):
             if get_layer(found) != layer:
                 yield line, f"'{include}' belongs to another layer"
-        elif not _is_outside_header_allowed(layer, include, is_test) and not _is_host_header(root, path, include):
+        elif not _is_outside_header_allowed(layer, include, is_test) and not _is_named_header(root, path, include):
             yield line, f"{layer.name} may not include '{include}'"
 
 
@@ -148,7 +149,10 @@ def _is_outside_header_allowed(layer: Layer, include: str, is_test: bool) -> boo
     return is_std and (layer.any_std or is_test or include in LISTED_STD)
 
 
-def _is_host_header(root: Path, path: Path, include: str) -> bool:
+def _is_named_header(root: Path, path: Path, include: str) -> bool:
+    """Headers that the table permits for single files."""
+    if path.suffix == ".h" and include in LISTED_C:
+        return True
     return path.relative_to(root).as_posix() in HOST_SOURCES and POSIX.fullmatch(include) is not None
 
 

@@ -16,7 +16,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-CODE_SUFFIXES = frozenset((".cpp", ".hpp", ".c", ".py", ".rs", ".sh", ".cmake", ".S", ".ld", ".js", ".css", ".html"))
+CODE_SUFFIXES = frozenset((".cpp", ".hpp", ".c", ".h", ".py", ".rs", ".sh", ".cmake", ".S", ".ld", ".js", ".css", ".html"))
 CODE_NAMES = frozenset(("mamori", "CMakeLists.txt"))
 VERIFICATION_SHARE_MAX = 0.25
 GENERATED = ("build", "report")

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 
 # Folder -> level. A file may include its own folder and folders of lower levels.
 FOLDER_LEVELS: Mapping[str, Mapping[str, int]] = {
-    "kernel": {"base": 0, "component": 1, "payload": 1, "record": 1, "dataflow": 2, "parameter": 2, "table": 3, "run": 4, "system": 4},
+    "kernel": {"base": 0, "component": 1, "payload": 1, "record": 1, "dataflow": 2, "parameter": 2, "c": 3, "table": 3, "run": 4, "system": 4},
     "safety": {"base": 0, "arm": 1, "redundancy": 1, "supervision": 1, "e2e": 1, "notice": 2, "reaction": 2, "self_test": 2, "assumptions": 3, "cycle": 4},
 }
 UMBRELLA_HEADERS = ("kernel/include/mamori/kernel.hpp",)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 # A new name needs an ADR.
 LISTED_STD = frozenset("array atomic cstddef cstdint limits new type_traits utility".split())
+LISTED_C = frozenset("stdbool.h stdint.h".split())  # for headers in C: ADR 0062
 # Kernel sources that use POSIX headers on a host, inside "#if defined(__unix__)": ADR 0034.
 HOST_SOURCES = frozenset({"kernel/src/base/assert.cpp"})
 TEST_INCLUDES = ("mamori/trace/verifies.hpp", "mamori/verification/failed_check.hpp", "gtest/", "gmock/", "relacy/")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that each C++ sample of the manual is part of a source that the build compiles, or of a program that the consumer proof builds.
+"""Checks that each C++ and C sample of the manual is part of a source that the build compiles, or of a program that the consumer proof builds.
 
 @satisfies SWR-PRF-050      Design: docs/design/launcher.md#layer-check
 """
@@ -14,6 +14,9 @@ from pathlib import Path
 
 INTEGRATION = "verification/integration/src/manual_samples.cpp"
 COMPILED = (
+    "examples/c_components/simple_io.c",
+    "examples/c_components/simple_io.cpp",
+    "examples/c_components/simple_io.h",
     "examples/minimal/main.cpp",
     "examples/tour/event_log.cpp",
     "examples/tour/fifo_ports.cpp",
@@ -39,7 +42,7 @@ COMPILED = (
 BUILT = {"last_resort.md": "int main(", "partitions.md": "", "real_time.md": "int main(", "timing.md": "int main("}
 """Pages whose samples verification/proofs/test_consumer.py builds and runs: pages that contain this text."""
 
-LANGUAGES = ("cpp", "cmake", "text")
+LANGUAGES = ("cpp", "c", "cmake", "text")
 _CPP_LINE = re.compile(r" {4}\s*(#include |(static|constexpr|using|namespace|class|struct) .*[;{]$|.*(\)|\}| = [^;]*);( *//.*)?$)")
 
 
@@ -85,7 +88,7 @@ def _find_fault(sample: Sample, page: str, sources: list[str]) -> str:
         return "C++ sample without a fence; begin it with ```cpp"
     if sample.language not in LANGUAGES:
         return f"language '{sample.language}' of a sample is unknown; valid: {', '.join(LANGUAGES)}"
-    if sample.language != "cpp" or (page in BUILT and BUILT[page] in sample.text):
+    if sample.language not in ("cpp", "c") or (page in BUILT and BUILT[page] in sample.text):
         return ""
     shapes = (sample.text, textwrap.indent(sample.text, " " * 4))
     if any(shape in source for source in sources for shape in shapes):

@@ -238,6 +238,32 @@ def test_program_of_a_user_writes_its_table_and_the_command_shows_it(project: Pr
     assert "monitor.brake  wheel.brake    next frame" in shown.stdout
 
 
+@pytest.mark.verifies("SWR-CIF-006", technique="back_to_back")
+def test_components_in_c_build_against_the_package_and_print_what_the_manual_shows(project: Project, prefix: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "c_components"
+    configured = configure(project, prefix, folder, "examples/c_components")
+    assert configured.returncode == 0, configured.stderr
+    built = run("cmake", "--build", folder / "build")
+    assert built.returncode == 0, built.stdout
+
+    page = (project.root / "docs" / "manual" / "c_components.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^```text\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    for programs in (folder / "build", project.build / "examples" / "c_components"):
+        for name, text in zip(("c_simple_io", "c_seq_io", "c_my_data_io"), shown, strict=True):
+            ran = subprocess.run([programs / name], input="5 7 -3 2147483647", capture_output=True, text=True, check=False)
+            assert (ran.returncode, ran.stdout) == (0, text)
+
+
+@pytest.mark.parametrize("compiler", ["gcc", "clang-19"])
+@pytest.mark.verifies("SWR-CIF-006", technique="interface")
+def test_components_in_c_compile_as_c99_without_a_warning(project: Project, compiler: str) -> None:
+    examples = project.root / "examples" / "c_components"
+    for source in sorted(examples.rglob("*.c")):
+        compiled = run(compiler, "-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-I", project.root / "kernel" / "include", source)
+        assert (compiled.returncode, compiled.stderr) == (0, "")
+        assert source.read_text(encoding="utf-8").count("\n") <= 80
+
+
 @pytest.mark.verifies("SWR-PRF-004", technique="error_guessing", polarity="violation")
 def test_consumer_without_the_package_is_told_so(project: Project, tmp_path: Path) -> None:
     refused = configure(project, tmp_path / "empty", tmp_path / "consumer")

@@ -11,7 +11,7 @@ import pytest
 from mamori_tools.host.project import ROOT
 from verification.checks.check_layers import check_tree, main
 from verification.checks.component_folders import UMBRELLA_HEADERS
-from verification.checks.layer_table import LISTED_STD
+from verification.checks.layer_table import LISTED_C, LISTED_STD
 from verification.checks.target_limits import MEASURED_HEADERS
 
 
@@ -50,10 +50,16 @@ def test_listed_headers_are_those_of_the_written_table() -> None:
 
     assert written is not None
     assert set(written[1].split()) == LISTED_STD
+    in_c = re.search(r"^\| kernel \|.*headers in C: `([a-z_. ]+)`", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert in_c is not None
+    assert set(in_c[1].split()) == LISTED_C
 
 
 ALLOWED = {
     "kernel/include/mamori/kernel/run/a.hpp": "#include <array>\n#include <cstdint>\n#include \"mamori/kernel/base/span.hpp\"\n",
+    "kernel/include/mamori/kernel/c/a.h": "#include <stdbool.h>\n#include <stdint.h>\n",
+    "kernel/include/mamori/kernel/c/a.hpp": "#include \"mamori/kernel/c/a.h\"\n#include \"mamori/kernel/dataflow/data_port.hpp\"\n",
+    "examples/a/main.c": "#include <math.h>\n#include \"mamori/kernel/c/a.h\"\n",
     "kernel/src/base/assert.cpp": "#include <unistd.h>\n",
     "kernel/tests/a_test.cpp": "#include <string>\n#include <gtest/gtest.h>\n#include \"mamori/trace/verifies.hpp\"\n",
     "kernel/tests/support/a.hpp": "#include <sys/wait.h>\n#include \"support/a.hpp\"\n",
@@ -107,6 +113,8 @@ def test_allowed_use_is_no_finding(tmp_path: Path, name: str) -> None:
         ("simbody_sim/src/a.cpp", "#include <boost/any.hpp>", "include: simbody_sim may not include 'boost/any.hpp'"),
         ("examples/a/main.cpp", '#include "../../safety/src/reaction/inner.hpp"', "include: '../../safety/src/reaction/inner.hpp' reaches into"),
         ("examples/a/main.cpp", '#include "safety/src/reaction/inner.hpp"', "include: 'safety/src/reaction/inner.hpp' reaches into"),
+        ("kernel/include/mamori/kernel/c/a.h", "#include <stdlib.h>", "include: kernel may not include 'stdlib.h'"),
+        ("kernel/src/run/a.c", "#include <stdint.h>", "include: kernel may not include 'stdint.h'"),
         ("trace/a.cpp", "", "include: this folder has no C++"),
         ("kernel/CMakeLists.txt", "mamori_library(kernel DEPENDS mamori::safety)", "link: kernel may not link mamori::safety"),
         ("ports/posix_rt/CMakeLists.txt", "mamori_library(posix_rt DEPENDS mamori::virtual_time)", "link: ports/posix_rt may"),
@@ -160,6 +168,7 @@ def test_include_of_the_own_folder_or_a_lower_level_is_no_finding(tmp_path: Path
         ("kernel/src/run/a.cpp", "mamori/kernel/payload/detail/cdr_size.hpp", "include: 'mamori/kernel/payload/detail/cdr_size.hpp' is a detail of"),
         ("safety/tests/a_test.cpp", "mamori/kernel/payload/detail/cdr_size.hpp", "include: 'mamori/kernel/payload/detail/cdr_size.hpp' is a detail"),
         ("examples/a/main.cpp", "mamori/kernel/payload/detail/cdr_size.hpp", "include: 'mamori/kernel/payload/detail/cdr_size.hpp' is a detail"),
+        ("kernel/include/mamori/kernel/c/a.hpp", "mamori/kernel/system/system.hpp", "include: kernel/c (level 3) may not include"),
         ("kernel/include/mamori/kernel/a.hpp", "", "folder: kernel has component folders only"),
         ("kernel/src/a.cpp", "", "folder: kernel has component folders only"), ("safety/src/other/a.cpp", "", "folder: safety has component"),
     ],

@@ -47,8 +47,8 @@ def test_each_sample_of_the_manual_is_compiled(name: str) -> None:
 def test_the_build_compiles_each_source_of_samples(name: str) -> None:
     path = ROOT / name
     lists = [folder / "CMakeLists.txt" for folder in path.parents if (folder / "CMakeLists.txt").is_file()]
-    if path.suffix == ".hpp":
-        users = [each for each in path.parent.glob("*.cpp") if f'"{path.name}"' in each.read_text(encoding="utf-8")]
+    if path.suffix in (".h", ".hpp"):
+        users = [each for each in path.parent.glob("*.c*") if f'"{path.name}"' in each.read_text(encoding="utf-8")]
         assert users
     else:
         users = [path]
@@ -74,8 +74,9 @@ def test_a_sample_that_is_compiled_is_accepted(root: Path, page: str) -> None:
     [
         ("# Wheel\n\n```cpp\nint sped{0};\n```\n", 3, "no source compiles this sample"),
         ("```cpp\nint main() {}\n```\n", 1, "no source compiles this sample"),
+        ("```c\nint sped;\n```\n", 1, "no source compiles this sample"),
         ("```cpp\nint speed{0};\n", 1, ""),
-        ("```c++\nint speed{0};\n```\n", 1, "language 'c++' of a sample is unknown; valid: cpp, cmake, text"),
+        ("```c++\nint speed{0};\n```\n", 1, "language 'c++' of a sample is unknown; valid: cpp, c, cmake, text"),
         ("Text:\n\n    wheel.set_speed(3);  // [rad/s]\n", 3, "C++ sample without a fence; begin it with ```cpp"),
         ("\n    #include <array>\n", 2, "C++ sample without a fence"),
     ],

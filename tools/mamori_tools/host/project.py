@@ -13,7 +13,7 @@ SANITIZED = "host-asan"
 LONG_LABEL = "long"
 """CTest's label of a test that only runs the compiler, or that tries so many cases or instructions that it takes minutes with sanitizers.
 Shorter tests of the same code run with sanitizers."""
-CPP_SUFFIXES = (".hpp", ".cpp")
+CPP_SUFFIXES = (".hpp", ".cpp", ".h", ".c")
 CPP_LAYERS = ("kernel", "safety", "ports", "simbody_sim", "examples", "tools", "trace", "verification")
 CHECKED_LAYERS = ("kernel", "safety", "ports")
 
@@ -66,7 +66,7 @@ class Project:
         return self.root / "examples" / "safe_arm" / "faults.yaml"
 
     def cpp_sources(self, layers: tuple[str, ...] = CPP_LAYERS) -> list[str]:
-        """C++ files of `layers`, relative to the root, sorted."""
+        """C++ and C files of `layers`, relative to the root, sorted."""
         return sorted(
             str(path.relative_to(self.root))
             for layer in layers

@@ -3,7 +3,8 @@
 /// One field list per payload type. All code that reads the fields of a payload (trace hash, encodings) uses
 /// this list. Therefore, padding bytes are never used, and each type is described once.
 ///
-/// @satisfies SWR-KRN-005, SWR-CDR-001, SWR-CDR-004      Design: docs/design/data_flow.md#field-lists
+/// @satisfies SWR-KRN-005, SWR-CDR-001, SWR-CDR-004, SWR-CIF-004
+/// Design: docs/design/data_flow.md#field-lists
 #ifndef MAMORI_KERNEL_FIELDS_HPP
 #define MAMORI_KERNEL_FIELDS_HPP
 
@@ -42,6 +43,8 @@ struct Shape<std::array<T, N>> : Shape<void> {
     static constexpr std::size_t kCapacity = N;
     using Element = T;
 };
+template <typename T, std::size_t N>
+struct Shape<T[N]> : Shape<std::array<T, N>> {};  // a field of a struct in C
 template <typename T, std::size_t N>
 struct Shape<BoundedSequence<T, N>> : Shape<void> {
     static constexpr bool kIsSequence = true;
@@ -103,11 +106,11 @@ constexpr bool walk(T& value, Visitor& visitor) noexcept {
             }
         }
         if constexpr (kIsScalar<typename Shape<Bare>::Element>) {
-            return visitor.run(value.data(), count);
+            return visitor.run(std::data(value), count);
         } else {
             bool goes_on = true;
             for (std::size_t i = 0U; goes_on && i < count; ++i) {
-                goes_on = walk(value.data()[i], visitor);
+                goes_on = walk(std::data(value)[i], visitor);
             }
             return goes_on;
         }
