@@ -14,6 +14,9 @@ from pathlib import Path
 
 INTEGRATION = "verification/integration/src/manual_samples.cpp"
 COMPILED = (
+    "examples/c_components/rtmsafety/SPEED.c",
+    "examples/c_components/rtmsafety/SPEED.h",
+    "examples/c_components/rtmsafety/speed.cpp",
     "examples/c_components/simple_io.c",
     "examples/c_components/simple_io.cpp",
     "examples/c_components/simple_io.h",

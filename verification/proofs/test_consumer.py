@@ -246,10 +246,10 @@ def test_components_in_c_build_against_the_package_and_print_what_the_manual_sho
     built = run("cmake", "--build", folder / "build")
     assert built.returncode == 0, built.stdout
 
-    page = (project.root / "docs" / "manual" / "c_components.md").read_text(encoding="utf-8")
-    shown = re.findall(r"^```text\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    pages = [(project.root / "docs" / "manual" / name).read_text(encoding="utf-8") for name in ("c_components.md", "rtmsafety.md")]
+    shown = re.findall(r"^```text\n(.*?)^```$", "".join(pages), re.DOTALL | re.MULTILINE)
     for programs in (folder / "build", project.build / "examples" / "c_components"):
-        for name, text in zip(("c_simple_io", "c_seq_io", "c_my_data_io"), shown, strict=True):
+        for name, text in zip(("c_simple_io", "c_seq_io", "c_my_data_io", "c_rtmsafety"), shown, strict=True):
             ran = subprocess.run([programs / name], input="5 7 -3 2147483647", capture_output=True, text=True, check=False)
             assert (ran.returncode, ran.stdout) == (0, text)
 
@@ -262,6 +262,20 @@ def test_components_in_c_compile_as_c99_without_a_warning(project: Project, comp
         compiled = run(compiler, "-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-I", project.root / "kernel" / "include", source)
         assert (compiled.returncode, compiled.stderr) == (0, "")
         assert source.read_text(encoding="utf-8").count("\n") <= 80
+
+
+@pytest.mark.verifies("SWR-CIF-011", technique="interface")
+def test_supervised_component_of_rtmsafety_runs(project: Project) -> None:
+    ran = run(project.build / "examples" / "c_components" / "c_rtmsafety")
+
+    assert re.search(r"^ 100 ms: Operational .*speed check: RTC_OK$", ran.stdout, re.MULTILINE)
+
+
+@pytest.mark.verifies("SWR-CIF-011", technique="fault_injection", polarity="violation")
+def test_failed_callback_of_rtmsafety_leads_to_the_stated_reaction(project: Project) -> None:
+    ran = run(project.build / "examples" / "c_components" / "c_rtmsafety")
+
+    assert ran.stdout.splitlines()[-1].startswith(" 260 ms: Safe ") and ran.stdout.endswith("speed check: RTC_ERROR\n")
 
 
 @pytest.mark.verifies("SWR-PRF-004", technique="error_guessing", polarity="violation")
