@@ -43,6 +43,26 @@ constexpr auto kSystem =
            connect(g_second_relay.out, g_listener.in, any_age()));
 MAMORI_CHECK(kSystem);
 
+template <std::size_t kSize>
+using Bytes = std::array<std::uint8_t, kSize>;
+class LargeOutputs final : public Component {
+  public:
+    constexpr LargeOutputs() noexcept : Component("large outputs") {}
+    OutPort<Bytes<0xFFFFU>> below{*this, "below"};
+    OutPort<Bytes<0x10000U>> above{*this, "above"};
+    using Ports = mamori::Ports<&LargeOutputs::below, &LargeOutputs::above>;
+};
+LargeOutputs g_large_outputs;
+
+TEST(SystemTest, APortRowHasTheSizeOfAValueBelow64KiB) {
+    verifies("SWR-CIF-012", Technique::kBoundaryValues);
+    const auto table = system(frame(1_ms), window("large", 0_us, 1_ms, budget(1_ms), run(g_large_outputs)));
+
+    EXPECT_EQ(table.ports[0].payload_bytes, 0xFFFFU);
+    EXPECT_EQ(table.ports[1].payload_bytes, 0U);
+    EXPECT_EQ(kSystem.ports[0].payload_bytes, sizeof(std::int64_t));
+}
+
 TEST(SystemTest, WindowsHoldTheirPlaceBudgetAndComponents) {
     verifies("SWR-KRN-017");
 

@@ -29,7 +29,7 @@ def window(name: str, core: int, offset: int, length: int, period: int, budget: 
 
 def component(name: str, index: int, worst_case: int | None = None) -> dict[str, object]:
     return {"name": name, "window": index, "worst_case_ns": worst_case,
-            "ports": [{"name": "in", "direction": "in", "mandatory": True}]}  # fmt: skip
+            "ports": [{"name": "in", "direction": "in", "mandatory": True, "payload_bytes": 8}]}  # fmt: skip
 
 
 def connection(source: int, out: str, sink: int, into: str, way: str, fresh: int | None = None) -> dict[str, object]:

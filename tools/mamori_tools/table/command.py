@@ -37,6 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="write a picture of the data flow: components by core and window, connections by port")  # fmt: skip
     parser.add_argument("--svg-modes", type=Path, metavar="OUT",
                         help="write a picture of the modes: transitions, events, initial mode and safe mode")  # fmt: skip
+    parser.add_argument("--as", dest="target", choices=("rtmsafety",), help="write the eight tables of RTMSafety in C99 to the folder of --out instead")
     parser.add_argument("--out", type=Path, metavar="DIR", help=f"write all four to DIR: {', '.join(FILES.values())}")
 
 
@@ -46,6 +47,8 @@ def run(arguments: argparse.Namespace) -> int:
     table = read_table(arguments.file)
     # All outputs are created before the first file is written.
     texts = [(path, make(table)) for path, make in outputs]
+    if arguments.target is not None:
+        texts += _make_tables(table, arguments.out)
     if arguments.out is not None:
         _make_folder(arguments.out)
     for path, text in texts:
@@ -53,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"mamori: wrote {path}", file=sys.stderr)
     if arguments.json:
         print(json.dumps(json.loads(read_text(arguments.file, "table").text), indent=1))
-    elif arguments.text or not outputs:
+    elif arguments.text or not texts:
         _print(table)
     elif table.findings:
         print(f"mamori: {arguments.file}: the table breaks {len(table.findings)} rule(s), first: {table.findings[0]}; --text shows all",
@@ -65,7 +68,9 @@ def _choose_outputs(arguments: argparse.Namespace) -> list[tuple[Path, Callable[
     makers = {"text": _make_text, "time_line": _make_time_line, "graph": _make_graph, "modes": _make_modes}
     pictures = {"time_line": arguments.svg_time_line, "graph": arguments.svg_graph, "modes": arguments.svg_modes}
     outputs: list[tuple[Path, Callable[[Table], str]]] = [(path, makers[kind]) for kind, path in pictures.items() if path is not None]
-    if arguments.out is not None:
+    if arguments.target is not None and arguments.out is None:
+        raise InputError("table: --as needs --out DIR, the folder for the tables")
+    if arguments.out is not None and arguments.target is None:
         outputs += [(arguments.out / name, makers[kind]) for kind, name in FILES.items()]
     seen = [arguments.file.absolute()]
     for path, _ in outputs:
@@ -102,6 +107,12 @@ def _make_modes(table: Table) -> str:
     return make_mode_graph(table)
 
 
+def _make_tables(table: Table, folder: Path) -> list[tuple[Path, str]]:
+    from mamori_tools.table.rtmsafety import make_files
+
+    return [(folder / name, text) for name, text in make_files(table).items()]
+
+
 def _make_folder(folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -124,4 +135,4 @@ COMMAND = Command(
     add_arguments, run, "show the system table of a program as text and as pictures",
     "Shows a system table that a program wrote. Without an option, it prints the text.",
     {0: "shown", 1: "shown, but the table violates a rule", 2: "nothing to show, or wrong arguments"},
-    examples=("table table.json --out pictures",))  # fmt: skip
+    examples=("table table.json --out pictures", "table table.json --as rtmsafety --out tables"))  # fmt: skip

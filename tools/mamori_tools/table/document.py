@@ -46,6 +46,8 @@ class Port:
     name: str
     direction: str
     mandatory: bool
+    payload_bytes: int | None
+    """Size of one value in the memory of the program; None: 64 KiB or more."""
 
 
 @dataclass(frozen=True)
@@ -191,7 +193,8 @@ def _read_window(node: JsonNode) -> Window:
 
 
 def _read_component(node: JsonNode, window_count: int) -> Component:
-    ports = (Port(port.at("name").text(), port.at("direction").text(DIRECTIONS), port.at("mandatory").truth())
+    ports = (Port(port.at("name").text(), port.at("direction").text(DIRECTIONS), port.at("mandatory").truth(),
+                  port.at("payload_bytes").whole_or_none())
              for port in node.at("ports").items())  # fmt: skip
     return Component(node.at("name").text(), node.at("window").index_or_none(window_count),
                      node.at("worst_case_ns").whole_or_none(), tuple(ports))  # fmt: skip

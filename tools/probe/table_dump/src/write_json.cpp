@@ -61,7 +61,8 @@ std::string make_component(const SystemView& view, std::size_t index) {
         }
         ports += (ports.empty() ? "" : ", ") + ("{\"name\": " + quote(get_port_name(port))) +
                  ", \"direction\": \"" + (port.input != nullptr ? "in" : "out") +
-                 "\", \"mandatory\": " + format_truth(port.is_mandatory) + "}";
+                 "\", \"mandatory\": " + format_truth(port.is_mandatory) + ", \"payload_bytes\": " +
+                 (port.payload_bytes == 0U ? "null" : std::to_string(port.payload_bytes)) + "}";
     }
     return "{\"name\": " + quote(get_component_name(view, index)) +
            ", \"window\": " + format_index(row.window, view.windows.size()) +

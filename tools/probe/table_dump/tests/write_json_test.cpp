@@ -108,9 +108,22 @@ TEST(WriteJsonTest, ComponentsContainTheirWindowWorstCaseAndPorts) {
     ASSERT_EQ(table["components"].size(), 5U);
     EXPECT_EQ(table["components"][1],
               json::parse(R"({"name": "monitor", "window": 0, "worst_case_ns": 40000, "ports": [
-        {"name": "in", "direction": "in", "mandatory": true}, {"name": "hint", "direction": "in", "mandatory": false},
-        {"name": "out", "direction": "out", "mandatory": false}]})"));
+        {"name": "in", "direction": "in", "mandatory": true, "payload_bytes": 8},
+        {"name": "hint", "direction": "in", "mandatory": false, "payload_bytes": 8},
+        {"name": "out", "direction": "out", "mandatory": false, "payload_bytes": 8}]})"));
     EXPECT_TRUE(table["components"][0]["worst_case_ns"].is_null());
+}
+
+TEST(WriteJsonTest, ASizeOf64KiBOrMoreIsNull) {
+    verifies("SWR-CIF-012", Technique::kBoundaryValues);
+    auto table = kSystem;
+    table.ports[0].payload_bytes = 0U;
+    table.ports[1].payload_bytes = 0xFFFFU;
+
+    const json components = dump(make_view(table))["components"];
+
+    EXPECT_TRUE(components[0]["ports"][0]["payload_bytes"].is_null());
+    EXPECT_EQ(components[1]["ports"][0]["payload_bytes"], 0xFFFF);
 }
 
 TEST(WriteJsonTest, ConnectionsStateWhenTheirValueArrives) {

@@ -2,10 +2,12 @@
 /// @file
 /// Lists the ports of a component, as pointers to its members, and creates their rows of the table.
 ///
-/// @satisfies SWR-KRN-017, SWR-KRN-062      Design: docs/design/kernel.md#system-table
+/// @satisfies SWR-KRN-017, SWR-KRN-062, SWR-CIF-012      Design: docs/design/kernel.md#system-table
 #ifndef MAMORI_KERNEL_PORT_LIST_HPP
 #define MAMORI_KERNEL_PORT_LIST_HPP
 
+#include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
 #include "mamori/kernel/base/compiler_message.hpp"
@@ -74,6 +76,8 @@ template <typename C, typename Port>
 constexpr PortRow make_port_row(C& component, Port& port) noexcept {
     PortRow row{};
     row.owner = &component;
+    constexpr std::size_t kBytes = sizeof(typename Port::Payload);
+    row.payload_bytes = kBytes <= 0xFFFFU ? static_cast<std::uint16_t>(kBytes) : std::uint16_t{0U};
     if constexpr (std::is_base_of_v<OutPortBase, Port>) {
         row.output = &port;
         row.hash_published = &Port::hash_published;

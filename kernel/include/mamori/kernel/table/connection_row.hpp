@@ -7,6 +7,7 @@
 #define MAMORI_KERNEL_CONNECTION_ROW_HPP
 
 #include <cstddef>
+#include <cstdint>
 
 #include "mamori/kernel/base/time.hpp"
 #include "mamori/kernel/component/component.hpp"
@@ -25,6 +26,7 @@ struct PortRow {
     InPortBase* input{nullptr};
     OutPortBase* output{nullptr};
     bool is_mandatory{false};         ///< of an input; false for an output
+    std::uint16_t payload_bytes{0U};  ///< size of one value; 0: 64 KiB or more. For tools.
     std::size_t window{kNoIndex};     ///< index of the window of its owner
     std::size_t component{kNoIndex};  ///< index of its owner in the table
     /// Returns the counters of an input.
