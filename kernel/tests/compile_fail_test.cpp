@@ -521,5 +521,16 @@ TEST(CompileFailTest, APortInCWithAnotherPayloadTypeIsRefused) {
     expect_refused("c_ports", "c_output_type", "same payload type in C and in C++");
 }
 
+TEST(CompileFailTest, TemporaryActionsInCAreRefused) {
+    verifies("SWR-CIF-005", Technique::kInterface, Polarity::kViolation);
+    expect_explained("c_ports", "temporary_actions", "deleted");
+}
+
+TEST(CompileFailTest, ACreateFunctionOfRtmSafetyWithAnotherSignatureOrNoneIsRefused) {
+    verifies("SWR-CIF-010", Technique::kInterface, Polarity::kViolation);
+    expect_explained("c_ports", "create_signature", "a create function is ReturnCode_t");
+    expect_explained("c_ports", "create_null", "a create function is not null");
+}
+
 }  // namespace
 }  // namespace mamori

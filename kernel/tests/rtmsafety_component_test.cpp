@@ -18,7 +18,7 @@ namespace {
 
 using namespace verification;
 
-using ReturnCode = std::int32_t;
+using ReturnCode = std::int64_t;
 struct PartObject {
     ReturnCode (*onInitialize)();
     ReturnCode (*onFinalize)();
@@ -74,6 +74,7 @@ class Part final : public RtmSafetyComponent<&create_part> {
 class RtmSafetyComponentTest : public ::testing::Test {
   protected:
     RtmSafetyComponentTest() { g_part = {}; }
+    ~RtmSafetyComponentTest() override { static_cast<void>(sut_.on_finalize()); }
     std::vector<Status> call_all() {
         const ContextHandle handle{0, Instant{}};
         return {sut_.on_initialize(),    sut_.on_startup(handle),     sut_.on_activated(handle),
@@ -106,7 +107,7 @@ TEST_F(RtmSafetyComponentTest, ACallbackThatIsNotStoredSucceedsAlsoAfterAFormerL
 
 TEST_F(RtmSafetyComponentTest, EachReturnCodeIsTheStatusAndAnyOtherNumberAnError) {
     verifies("SWR-CIF-010", Technique::kBoundaryValues, Polarity::kViolation);
-    for (const ReturnCode code : {1, 2, 3, 4, 5, 6, -1}) {
+    for (const ReturnCode code : {1LL, 2LL, 3LL, 4LL, 5LL, 6LL, -1LL, 0x100000000LL}) {
         g_part.result = code;
         const Status expected = code >= 1 && code <= 5 ? static_cast<Status>(code) : Status::kError;
 
@@ -122,6 +123,24 @@ TEST_F(RtmSafetyComponentTest, AFailedCreateFunctionKeepsTheComponentFromItsLife
 
     EXPECT_FALSE(sut_.is_alive());
     EXPECT_EQ(g_part.calls, std::vector<std::string>{"create"});
+    EXPECT_EQ(sut_.on_execute({0, Instant{}}), Status::kOk);
+    EXPECT_EQ(g_part.calls, std::vector<std::string>{"create"});
+}
+
+TEST_F(RtmSafetyComponentTest, ASecondObjectIsRejectedUntilTheFirstIsFinalized) {
+    verifies("SWR-CIF-010", Technique::kFaultInjection, Polarity::kViolation);
+    Part second;
+    g_part.result = 1;
+    EXPECT_EQ(sut_.initialize(), Status::kError);
+    g_part.result = 0;
+    EXPECT_EQ(second.initialize(), Status::kOk);
+    g_part.calls.clear();
+
+    EXPECT_EQ(sut_.initialize(), Status::kPreconditionNotMet);
+
+    EXPECT_TRUE(g_part.calls.empty());
+    EXPECT_EQ(second.finalize(), Status::kOk);
+    EXPECT_EQ(sut_.initialize(), Status::kOk);
 }
 
 MAMORI_CONSTINIT Part static_part;

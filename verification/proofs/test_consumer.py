@@ -264,6 +264,64 @@ def test_components_in_c_compile_as_c99_without_a_warning(project: Project, comp
         assert source.read_text(encoding="utf-8").count("\n") <= 80
 
 
+OTHER_TYPES = {"output": "static const int number = 1; void f(void) { MAMORI_WRITE(ports->out, &number); }",
+               "sign": "static const unsigned long number = 1; void f(void) { MAMORI_WRITE(ports->sum, &number); }",
+               "input": "int f(void) { const int* const number = MAMORI_READ(ports->in); return *number; }"}  # fmt: skip
+
+
+@pytest.mark.parametrize("compiler", ["gcc", "clang-19"])
+@pytest.mark.parametrize("case", OTHER_TYPES)
+@pytest.mark.verifies("SWR-CIF-003", technique="interface", polarity="violation")
+def test_value_of_another_type_does_not_compile_in_c_with_the_flags_of_the_example(project: Project, compiler: str, case: str, tmp_path: Path) -> None:
+    lists = (project.root / "examples" / "c_components" / "CMakeLists.txt").read_text(encoding="utf-8")
+    flags = re.findall(r"-Werror=[\w-]+", lists)
+    (tmp_path / "part.c").write_text('#include "mamori/kernel/c/component.h"\n'
+                                     "struct Ports { MAMORI_IN_PORT(double) in; MAMORI_OUT_PORT(double) out; MAMORI_OUT_PORT(long) sum; };\n"
+                                     f"extern const struct Ports* ports;\n{OTHER_TYPES[case]}\n", encoding="utf-8")  # fmt: skip
+    command = (compiler, "-std=c99", "-fsyntax-only", "-I", project.root / "kernel" / "include", tmp_path / "part.c")
+
+    assert run(*command).returncode == 0
+    compiled = run(*command, *flags)
+
+    assert compiled.returncode != 0 and "error: " in compiled.stderr and "-Werror" in compiled.stderr
+
+
+SPEED_CHECK = """
+#include <stdio.h>
+#include <stdlib.h>
+#include "SPEED.h"
+static double speed;
+static bool has_new, is_standing = true;
+static const double* read(const void* port) { (void)port; return &speed; }
+static bool is_new(const void* port) { (void)port; return has_new; }
+static void write(void* port, const bool* value) { (void)port; is_standing = *value; }
+const SpeedPorts speed_ports = {{0, &read, &is_new, 0}, {0, &write}};
+int main(int count, char** words) {
+    SPEED_t part;
+    speed = strtod(words[1], NULL);
+    has_new = count > 2;
+    if (SPEED_create(&part) != RTC_OK) { return 1; }
+    const int code = part.onExecute();
+    printf("%d %d", code, is_standing);
+    return 0;
+}
+"""
+
+
+@pytest.mark.verifies("SWR-CIF-011", technique="boundary_values", polarity="violation")
+def test_speed_check_fails_in_both_directions_and_without_a_new_value(project: Project, tmp_path: Path) -> None:
+    (tmp_path / "main.c").write_text(SPEED_CHECK, encoding="utf-8")
+    folder = project.root / "examples" / "c_components" / "rtmsafety"
+    built = run("gcc", "-std=c99", "-I", project.root / "kernel" / "include", "-I", folder, folder / "SPEED.c", tmp_path / "main.c", "-o", tmp_path / "main")
+    assert built.returncode == 0, built.stderr
+
+    speeds = {"0": "0 1", "0.0999": "0 1", "-0.0999": "0 1", "0.1": "0 0", "-0.1": "0 0", "6": "0 0", "-6": "0 0", "6.001": "1 0", "-6.001": "1 0",
+              "nan": "1 0"}  # fmt: skip
+    for speed, shown in speeds.items():
+        assert run(tmp_path / "main", speed, "new").stdout == shown
+        assert run(tmp_path / "main", speed).stdout == "1 0"
+
+
 @pytest.mark.verifies("SWR-CIF-011", technique="interface")
 def test_supervised_component_of_rtmsafety_runs(project: Project) -> None:
     ran = run(project.build / "examples" / "c_components" / "c_rtmsafety")

@@ -32,8 +32,10 @@ namespace mamori {
 namespace detail {
 
 /// @return the status with the number `code`; kError for a number that is not a return code.
-constexpr Status to_status(std::uint32_t code) noexcept {
-    return code <= MAMORI_PRECONDITION_NOT_MET ? static_cast<Status>(code) : Status::kError;
+template <typename Code>
+constexpr Status to_status(Code code) noexcept {
+    const auto number = static_cast<std::uint64_t>(code);  // a negative number is a large one
+    return number <= MAMORI_PRECONDITION_NOT_MET ? static_cast<Status>(number) : Status::kError;
 }
 
 /// The initial value of a MAMORI_IN_PORT.
@@ -128,6 +130,7 @@ class CComponent : public Component {
     /// object.
     constexpr CComponent(const char* name, const MamoriActions& actions, void* self) noexcept
         : Component(name), actions_(actions), self_(self) {}
+    CComponent(const char* name, const MamoriActions&& actions, void* self) = delete;
     ~CComponent() = default;
 
   private:

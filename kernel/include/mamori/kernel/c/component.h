@@ -56,7 +56,9 @@ typedef struct MamoriActions {
 } MamoriActions;
 
 /** An input as member of the struct of a component: `MAMORI_IN_PORT(double) speed;`. C++ initialises it with
- * mamori::c_port(). The compilers of both languages check the type of the values. For actions only. */
+ * mamori::c_port(), which rejects another payload type. In C, a value of another type is only a warning:
+ * compile with -Werror=incompatible-pointer-types -Werror=pointer-sign. No compiler checks a `void*`. For
+ * actions only; each macro evaluates its port expression twice. */
 #define MAMORI_IN_PORT(Type)                                                      \
     struct {                                                                      \
         const void* port;                                                         \
@@ -64,7 +66,8 @@ typedef struct MamoriActions {
         bool (*is_new)(const void* port);                                         \
         MamoriPortStatus (*calc_status)(const void* port, MamoriContext context); \
     }
-/** Address of the current value; zero before the first value. The value does not change during an action. */
+/** Never null. Before the first value, it points to a zero-initialised value: check MAMORI_CALC_STATUS. The
+ * value does not change during an action. */
 #define MAMORI_READ(input) ((input).read((input).port))
 /** True when the value arrived after the last completed cycle of the component. */
 #define MAMORI_IS_NEW(input) ((input).is_new((input).port))
@@ -77,7 +80,8 @@ typedef struct MamoriActions {
         void* port;                                   \
         void (*write)(void* port, const Type* value); \
     }
-/** Copies `*value`, which is published at window end. A second write in one cycle replaces the first. */
+/** Copies `*value`, which is published at window end; `value` must not be null. A second write in one cycle
+ * replaces the first. */
 #define MAMORI_WRITE(output, value) ((output).write((output).port, (value)))
 
 #endif /* MAMORI_KERNEL_C_COMPONENT_H */

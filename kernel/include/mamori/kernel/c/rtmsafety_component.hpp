@@ -16,8 +16,6 @@
 #ifndef MAMORI_KERNEL_RTMSAFETY_COMPONENT_HPP
 #define MAMORI_KERNEL_RTMSAFETY_COMPONENT_HPP
 
-#include <cstdint>
-
 #include "mamori/kernel/base/status.hpp"
 #include "mamori/kernel/c/c_component.hpp"
 #include "mamori/kernel/component/component.hpp"
@@ -26,25 +24,41 @@ namespace mamori {
 
 /// @tparam kCreate the create function, `ReturnCode_t Name_create(Name_t* pself)`.
 template <auto kCreate, typename Function = decltype(kCreate)>
-class RtmSafetyComponent;
+class RtmSafetyComponent {
+    static_assert(sizeof(Function) == 0U, "a create function is ReturnCode_t Name_create(Name_t* pself)");
+};
 
 /// Calls the callbacks. A callback that the create function does not store is an action that succeeds. The
-/// callbacks receive no argument: a type has one instance, whose data are global. on_state_update and
-/// on_rate_changed have no callback.
+/// callbacks receive no argument and their data are global: one object at a time is alive. on_state_update
+/// and on_rate_changed have no callback.
 ///
 /// Thread safety: as Component. Time: O(1) plus the callback. Memory: one Object, no heap.
 /// @tparam Code return codes with the numbers of OMG RTC. @tparam Object struct with the ten members.
 template <auto kCreate, typename Code, typename Object>
 class RtmSafetyComponent<kCreate, Code (*)(Object*)> : public Component {
+    static_assert(kCreate != nullptr, "a create function is not null");
+
   public:
     /// Calls the create function, then onInitialize.
-    /// @return the first code that is not kOk; otherwise kOk.
+    /// @return the first code that is not kOk; kPreconditionNotMet if another object is alive; otherwise kOk.
     Status on_initialize() noexcept override {
+        if (owner != nullptr && owner != this) {
+            return Status::kPreconditionNotMet;
+        }
         object_ = Object{};
-        const Status created = as_status(kCreate(&object_));
-        return created == Status::kOk ? call(object_.onInitialize) : created;
+        Status result = detail::to_status(kCreate(&object_));
+        if (result == Status::kOk) {
+            result = call(object_.onInitialize);
+        } else {
+            object_ = Object{};
+        }
+        owner = result == Status::kOk ? this : nullptr;
+        return result;
     }
-    Status on_finalize() noexcept override { return call(object_.onFinalize); }
+    Status on_finalize() noexcept override {
+        owner = nullptr;
+        return call(object_.onFinalize);
+    }
     Status on_startup(ContextHandle) noexcept override { return call(object_.onStartup); }
     Status on_shutdown(ContextHandle) noexcept override { return call(object_.onShutdown); }
     Status on_activated(ContextHandle) noexcept override { return call(object_.onActivated); }
@@ -60,13 +74,11 @@ class RtmSafetyComponent<kCreate, Code (*)(Object*)> : public Component {
     ~RtmSafetyComponent() = default;
 
   private:
-    static Status as_status(Code code) noexcept {
-        return detail::to_status(static_cast<std::uint32_t>(code));
-    }
     static Status call(Code (*callback)()) noexcept {
-        return callback == nullptr ? Status::kOk : as_status(callback());
+        return callback == nullptr ? Status::kOk : detail::to_status(callback());
     }
 
+    inline static const RtmSafetyComponent* owner{nullptr};  // of the global data of the component in C
     Object object_{};
 };
 
