@@ -87,8 +87,12 @@ def test_rows_follow_the_rules(tmp_path: Path) -> None:
 @pytest.mark.verifies("SWR-CIF-013")
 def test_each_difference_and_each_constant_is_listed(tmp_path: Path) -> None:
     faults = [{"number": 0, "name": "Hot"}]
-    windows = [window("check", 6 * MS, partition="open"), window("drive", MS, 20 * MS), window("rtc_life_cycle_mnt", 8 * MS, kind="system")]
-    assert export(tmp_path, make_table(faults=faults, windows=windows)) == 0
+    windows = [window("check", 6 * MS, partition="open", slower_periods_ns=[20 * MS, 40 * MS]), window("drive", MS, 20 * MS),
+               window("rtc_life_cycle_mnt", 8 * MS, kind="system")]  # fmt: skip
+    table = make_table(faults=faults, windows=windows)
+    table["components"][0]["worst_case_ns"] = 2 * MS  # type: ignore[index]
+    table["components"][1]["ports"][0]["mandatory"] = True  # type: ignore[index]
+    assert export(tmp_path, table) == 0
 
     lines = (tmp_path / "out" / "differences.txt").read_text(encoding="utf-8").splitlines()
     for line in (
@@ -97,13 +101,17 @@ def test_each_difference_and_each_constant_is_listed(tmp_path: Path) -> None:
         "* RtcEcCreateTbl.c, EC_INDEX_CHECK: components wheel, monitor; the template has a context per component",
         "* EC_INDEX_RTC_LIFE_CYCLE_MNT: system window 'rtc_life_cycle_mnt'", "* EC_INDEX_RECEIVE_EC: no system window; the row of the template",
         "* no column: OBJECTKEY_MONITOR_IN_2 is a queue; whether RTMSafety keeps each value is not known",
-        "* no column: age limit 20 ms of OBJECTKEY_MOTOR_IN", "* no column: MajorTimeWindow of 10 ms; offset, length and budget of each window",
+        "* no column: age limit 20 ms of OBJECTKEY_MOTOR_IN",
+        "* no column: MajorTimeWindow of 10 ms; offset, length and budget of each window; abort policy 'spec_only'",
+        "* no column: slower periods 20 ms, 40 ms of window 'check'", "* no column: worst case 2 ms of component 'wheel'",
+        "* no column: OBJECTKEY_MONITOR_IN is mandatory",
         "* no column: partition 'open' of window 'check'", "* no column: faults with their reactions, parameters with their sets",
         "RTC_NUM 3", "DATAPORT_NUM 5", "DATAPORT_CONNECT_NUM 3", "RTCEC_NUM 2", "EC_AWAKE_SET_NUM 6", "RTC_MNT_NUM 3", "RTC_SND_NUM 10", "RTC_SELF_DIAGNOS 1",
         "OBJECTKEY_EMPTY 0", "RTC_INDEX_WHEEL 1", "EC_INDEX_DRIVE 5",
     ):  # fmt: skip
         assert line in lines
     assert not [line for line in lines if "RtcEcCreateTbl.c, EC_INDEX_DRIVE" in line]
+    assert sum("is mandatory" in line for line in lines) == sum("worst case" in line for line in lines) == 1
 
 
 @pytest.mark.verifies("SWR-CIF-013", technique="equivalence_classes")
@@ -120,7 +128,8 @@ def test_component_without_ports_and_connections_of_12_bytes_are_exported(tmp_pa
     assert export(tmp_path, make_table(windows=[window("check", 0)], components=[component("clock", 0)], connections=[])) == 0
     assert read_rows(tmp_path, "DataPortCreateTbl.c") == [["0"]]
     assert read_rows(tmp_path, "DataPortConctTbl.c") == [["OBJECTKEY_EMPTY", "OBJECTKEY_EMPTY", "0", "0"]]
-    assert "* a table without rows has one empty row" in (tmp_path / "out" / "differences.txt").read_text(encoding="utf-8")
+    differences = (tmp_path / "out" / "differences.txt").read_text(encoding="utf-8")
+    assert "* a table without rows has one empty row" in differences and "length 0" not in differences
 
     parts = [component("wheel", 0, out=12), component("motor", 0, **{"in": 12})]
     assert export(tmp_path, make_table(windows=[window("check", 0)], components=parts, connections=[connection(0, "out", 1, "in")])) == 0
@@ -165,8 +174,9 @@ def many(count: int) -> dict[str, int | None]:
 
 @pytest.mark.verifies("SWR-CIF-014", technique="boundary_values")
 def test_limits_are_allowed(tmp_path: Path) -> None:
-    parts = [component(f"c{number}", 0, **many(16)) for number in range(16)]
-    assert export(tmp_path, make_table(windows=[window("check", 10 * MS - 1)], components=parts, connections=[])) == 0
+    parts = [component(f"c{number}", 0, **many(16)) for number in range(16)] + [component(f"s{number}", 1, **many(17)) for number in range(17)]
+    windows = [window("check", 9500 * US), window("receive_ec", 0, kind="system")]
+    assert export(tmp_path, make_table(windows=windows, components=parts, connections=[])) == 0
     assert len(read_rows(tmp_path, "RtcEcCreateTbl.c")[0]) == 19
     assert "0" not in read_rows(tmp_path, "RtcEcCreateTbl.c")[0][3:]
 
@@ -176,14 +186,20 @@ REFUSED: dict[str, tuple[Row, str]] = {
                  "component 'wheel' has 17 ports; a component of RTMSafety has at most 16"),
     "17 components": ({"components": [component(f"c{number}", 0) for number in range(17)], "connections": []},
                       "window 'check' has 17 components; a context of RTMSafety has at most 16"),
-    "no component": ({"components": [], "connections": []}, "has no component"),
-    "finding": ({"findings": ["window 'a': too long"]}, "breaks 1 rule(s), first: window 'a': too long"),
-    "mode": ({"modes": [{"name": "idle", "initial": True, "safe": True, "components": [], "set": None}]}, "has 1 modes, and RTMSafety has none"),
+    "no component": ({"components": [], "connections": [], "windows": []}, "has no component outside the built-in contexts"),
+    "only built-in contexts": ({"components": [component("supervise", 2)], "connections": []}, "has no component outside the built-in contexts"),
+    "no window": ({"components": [component("wheel", None)], "connections": [], "windows": []}, "component 'wheel' runs in no window"),
+    "port of a built-in context": ({"connections": [connection(0, "out", 3, "in")]},
+                                   "component 'supervise' runs in the built-in context 'rtc_life_cycle_mnt', which has no ports"),
+    "finding": ({"findings": ["window 'a': too long"]}, "violates a rule, first of 1: window 'a': too long"),
+    "mode": ({"modes": [{"name": "idle", "initial": True, "safe": True, "components": [], "set": None}]}, "has modes, and RTMSafety has none"),
     "core": ({"windows": [window("check", 0), window("drive", MS, core=1), window("late", 2 * MS)]}, "has windows on core 0, core 1"),
     "kind": ({"windows": [window("check", 0, kind="event_driven", events_per_cycle=1), window("drive", MS), window("late", 2 * MS)]},
              "window 'check' is event_driven"),
     "phase": ({"windows": [window("check", 10 * MS, 20 * MS), window("drive", MS, 10 * MS), window("late", 2 * MS)]},
-              "window 'check' starts 10 ms after the begin of the frame"),
+              "window 'check' ends 10.5 ms after the start of the frame"),
+    "end": ({"windows": [window("check", 9500 * US + 1, 20 * MS), window("drive", MS, 10 * MS), window("late", 2 * MS)]},
+            "after the first MajorTimeWindow (10 ms); move or shorten it"),
     "slow system window": ({"windows": [window("check", 0), window("drive", MS), window("receive_ec", 2 * MS, 20 * MS, kind="system")]},
                            "system window 'receive_ec' has the period 20 ms"),
     "long value": ({"components": [component("wheel", 0, out=None, out_2=8), *make_table()["components"][1:]]},  # type: ignore[index]
@@ -194,8 +210,8 @@ REFUSED: dict[str, tuple[Row, str]] = {
     "equal names": ({"components": [component("a b", 0), component("a-b", 0)], "connections": []},
                     "component 'a-b' and component 'a b' have the same name 'RTC_INDEX_A_B' in C; rename one"),
     "equal keys": ({"components": [component("a", 0, in_b=1), component("a_in_b", 0)], "connections": []}, "have the same name 'OBJECTKEY_A_IN_B'"),
-    "reserved key": ({"components": [component("empty", 0)], "connections": []}, "component 'empty' and no object have the same name 'OBJECTKEY_EMPTY'"),
-    "reserved context": ({"windows": [window("check", 0), window("receive_ec", MS), window("late", 2 * MS)]}, "have the same name 'EC_INDEX_RECEIVE_EC'"),
+    "reserved key": ({"components": [component("empty", 0)], "connections": []}, "component 'empty': 'OBJECTKEY_EMPTY' is a reserved name; rename it"),
+    "reserved context": ({"windows": [window("check", 0), window("receive_ec", MS), window("late", 2 * MS)]}, "'EC_INDEX_RECEIVE_EC' is a reserved name"),
     "digit": ({"components": [component("2nd", 0)], "connections": []}, "component '2nd' does not begin with a letter"),
 }  # fmt: skip
 
@@ -218,3 +234,31 @@ def test_the_folder_must_be_named(tmp_path: Path, capsys: pytest.CaptureFixture[
 
     assert main(["table", str(tmp_path / "table.json"), "--as", "rtmsafety"]) == 2
     assert "--as needs --out DIR" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [("--out", "."), ("--out", "link"), ("--out", "out", "--svg-modes", "out/RtcCreateTbl.c")])
+@pytest.mark.verifies("SWR-CIF-014", technique="error_guessing", polarity="violation")
+def test_tables_never_share_a_file(words: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    text = json.dumps(make_table())
+    (tmp_path / "differences.txt").write_text(text, encoding="utf-8")
+    (tmp_path / "link").symlink_to(tmp_path)
+    monkeypatch.chdir(tmp_path)
+
+    assert main(["table", "differences.txt", "--as", "rtmsafety", *words]) == 2
+
+    assert "is named twice" in capsys.readouterr().err
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["differences.txt", "link"]
+    assert (tmp_path / "differences.txt").read_text(encoding="utf-8") == text
+
+
+@pytest.mark.verifies("SWR-CIF-014", technique="fault_injection", polarity="violation")
+def test_a_file_that_cannot_be_written_leaves_all_others_unchanged(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "out" / "EcAwakingTbl.c").mkdir(parents=True)
+    (tmp_path / "out" / "RtcCreateTbl.c").write_text("old", encoding="utf-8")
+
+    assert export(tmp_path, make_table()) == 2
+
+    error = capsys.readouterr().err
+    assert "EcAwakingTbl.c: cannot be written: is a folder or a device" in error and error.count("\n") == 1
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["EcAwakingTbl.c", "RtcCreateTbl.c"]
+    assert (tmp_path / "out" / "RtcCreateTbl.c").read_text(encoding="utf-8") == "old"

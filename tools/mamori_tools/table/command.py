@@ -9,6 +9,7 @@ Exit status: 0 shown, 1 shown, but the table violates a rule, 2 nothing to show 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import os
 import sys
@@ -19,7 +20,8 @@ from mamori_tools.host.arguments import Command
 from mamori_tools.host.exit_status import EXIT_FAILED, EXIT_OK
 from mamori_tools.table.document import Table, read_table
 from mamori_trace.base.errors import InputError
-from mamori_trace.base.text_file import read_text, write_text
+from mamori_trace.base.text_file import read_text, refuse_output
+from mamori_trace.base.whole_file import whole_file
 
 FILES = {"text": "table.txt", "time_line": "time_line.svg", "graph": "graph.svg", "modes": "modes.svg"}
 
@@ -51,9 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
         texts += _make_tables(table, arguments.out)
     if arguments.out is not None:
         _make_folder(arguments.out)
-    for path, text in texts:
-        write_text(path, text)
-        print(f"mamori: wrote {path}", file=sys.stderr)
+    _write_all(texts)
     if arguments.json:
         print(json.dumps(json.loads(read_text(arguments.file, "table").text), indent=1))
     elif arguments.text or not texts:
@@ -72,12 +72,25 @@ def _choose_outputs(arguments: argparse.Namespace) -> list[tuple[Path, Callable[
         raise InputError("table: --as needs --out DIR, the folder for the tables")
     if arguments.out is not None and arguments.target is None:
         outputs += [(arguments.out / name, makers[kind]) for kind, name in FILES.items()]
-    seen = [arguments.file.absolute()]
-    for path, _ in outputs:
-        if path.absolute() in seen:
+    seen = {os.path.realpath(arguments.file)}
+    for path in (*(path for path, _ in outputs), *_name_tables(arguments)):
+        if os.path.realpath(path) in seen:
             raise InputError(f"table: '{path}' is named twice; give each file a name of its own")
-        seen.append(path.absolute())
+        seen.add(os.path.realpath(path))
     return outputs
+
+
+def _write_all(texts: list[tuple[Path, str]]) -> None:
+    """Raises InputError; then no file has changed, unless a rename fails."""
+    path = Path()
+    try:
+        with contextlib.ExitStack() as files:
+            for path, text in texts:
+                files.enter_context(whole_file(path)).write_text(text, encoding="utf-8", newline="\n")
+    except OSError as error:
+        raise refuse_output(path, error) from error
+    for path, _ in texts:
+        print(f"mamori: wrote {path}", file=sys.stderr)
 
 
 # Each picture needs its own library or program; the other outputs do not need them.
@@ -105,6 +118,12 @@ def _make_modes(table: Table) -> str:
     from mamori_tools.table.mode_graph import make_mode_graph
 
     return make_mode_graph(table)
+
+
+def _name_tables(arguments: argparse.Namespace) -> list[Path]:
+    from mamori_tools.table.rtmsafety import get_file_names
+
+    return [] if arguments.target is None else [arguments.out / name for name in get_file_names()]
 
 
 def _make_tables(table: Table, folder: Path) -> list[tuple[Path, str]]:

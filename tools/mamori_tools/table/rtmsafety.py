@@ -59,14 +59,16 @@ COMMON_HEADERS = ("UserCommon.h", "UserConfig.h", "MyObjectKey.h", "SystemTbls.h
 class Names:
     """Identifiers of the tables, and what each stands for."""
 
-    owners: dict[str, str] = field(default_factory=lambda: {f"EC_INDEX_{name}": "a built-in context" for name in CONTEXTS}
-                                   | {KEY_NONE: "no object", KEY_ALIVE: "a built-in context"})  # fmt: skip
+    owners: dict[str, str | None] = field(default_factory=lambda: dict.fromkeys((*(f"EC_INDEX_{name}" for name in CONTEXTS), KEY_NONE, KEY_ALIVE)))
+    """None: a reserved name."""
 
     def add(self, prefix: str, owner: str, *parts: str) -> str:
         """@return the identifier of a new object. @raise InputError if another object has it."""
         identifier = prefix + "_".join(_to_capitals(part) for part in parts)
         if identifier in self.owners:
-            raise InputError(f"table: {owner} and {self.owners[identifier]} have the same name '{identifier}' in C; rename one")
+            if (other := self.owners[identifier]) is None:
+                raise InputError(f"table: {owner}: '{identifier}' is a reserved name; rename it")
+            raise InputError(f"table: {owner} and {other} have the same name '{identifier}' in C; rename one")
         self.owners[identifier] = owner
         return identifier
 
@@ -79,6 +81,10 @@ class PortNames:
     owner: str
 
 
+def get_file_names() -> list[str]:
+    return [*(file.name for file in FILES), DIFFERENCES]
+
+
 def make_files(table: Table) -> dict[str, str]:
     """Name and text of each file. @raise InputError, which names what RTMSafety cannot express."""
     return _Export(table).make_files()
@@ -86,11 +92,11 @@ def make_files(table: Table) -> dict[str, str]:
 
 class _Export:
     def __init__(self, table: Table) -> None:
-        _check(table)
         self.table = table
         self.names = Names()
         self.system = _find_system_windows(table)
         self.components = [index for index, each in enumerate(table.components) if each.window not in self.system]
+        _check(table, [table.components[index] for index in self.components])
         self.windows = [index for index, _ in enumerate(table.windows) if index not in self.system]
         self.windows.sort(key=lambda index: (table.windows[index].offset_ns, index))
         self.base_ns = math.gcd(*(window.period_ns for window in table.windows))
@@ -117,7 +123,7 @@ class _Export:
         own = [f"{function.removesuffix('_create')}.h" for function in self.functions.values()] if file == FILES[0] else []
         includes = "".join(f'#include "{name}"\n' for name in (*COMMON_HEADERS, file.header, *own))
         body = "".join(f"    {{{', '.join(row)}}},\n" for row in rows) if "[" in file.declaration else f"    {', '.join(rows[0])}\n"
-        return (f"/* {file.name}: written by `mamori table --as rtmsafety`. {DIFFERENCES} lists the differences to the template.\n"
+        return (f"/* {file.name}: written by `mamori table --as rtmsafety`. {DIFFERENCES} lists the differences from the template.\n"
                 f" * Columns: {file.columns}. */\n{includes}\n{file.declaration} = {{\n{body}}};\n")  # fmt: skip
 
     def _make_components(self) -> list[list[str]]:
@@ -141,6 +147,9 @@ class _Export:
 
     def _find_port(self, end: End) -> PortNames:
         if end.component is None or (port := self.ports.get((end.component, end.port))) is None:
+            if end.component is not None and (component := self.table.components[end.component]).window in self.system:
+                name = self.table.windows[component.window].name
+                raise InputError(f"table: {_spell(component)} runs in the built-in context '{name}', which has no ports; use a window with another name")
             raise InputError(f"table: a connection has the port '{end.port}', which is a port of no component; write the table again")
         return port
 
@@ -152,9 +161,9 @@ class _Export:
         rows = [["1", str(minor), str(SYSTEM_SHARE), f"EC_INDEX_{name}"] for minor, name in enumerate(CONTEXTS)]
         for minor, index in enumerate(self.windows, FIRST_MINOR):
             window = self.table.windows[index]
-            if window.offset_ns >= self.base_ns:
-                raise InputError(f"table: window '{window.name}' starts {format_time(window.offset_ns)} after the begin of the frame, but RTMSafety has no"
-                                 f" column for a window after the first MajorTimeWindow ({format_time(self.base_ns)}); move it forward")  # fmt: skip
+            if (end_ns := window.offset_ns + window.length_ns) > self.base_ns:
+                raise InputError(f"table: window '{window.name}' ends {format_time(end_ns)} after the start of the frame, but RTMSafety has no"
+                                 f" column for a window after the first MajorTimeWindow ({format_time(self.base_ns)}); move or shorten it")  # fmt: skip
             rows.append([str(window.period_ns // self.base_ns), str(minor), str(SHARE), self.contexts[index]])
         for index in self.system:
             if (window := self.table.windows[index]).period_ns != self.base_ns:
@@ -164,8 +173,8 @@ class _Export:
 
     def _list_differences(self, sizes: dict[str, int]) -> Iterator[str]:
         table = self.table
-        yield "Differences to the rows of the public templates of RTMSafety"
-        for row in self._make_connections():
+        yield "Differences from the rows of the public templates of RTMSafety"
+        for row in self._make_connections() if table.connections else []:
             if int(row[2]) != TEMPLATE_BYTES:
                 yield f"* DataPortConctTbl.c, {row[0]}: length {row[2]}; the template has always {TEMPLATE_BYTES}"
         if not table.connections or not self.ports:
@@ -194,10 +203,18 @@ class _Export:
     def _list_omissions(self) -> Iterator[str]:
         """What the system table states and no column contains."""
         table = self.table
-        yield f"* no column: MajorTimeWindow of {format_time(self.base_ns)}; offset, length and budget of each window"
+        yield f"* no column: MajorTimeWindow of {format_time(self.base_ns)}; offset, length and budget of each window; abort policy '{table.abort_policy}'"
         for window in table.windows:
             if window.partition:
                 yield f"* no column: partition '{window.partition}' of window '{window.name}'"
+            if window.slower_periods_ns:
+                yield f"* no column: slower periods {', '.join(map(format_time, window.slower_periods_ns))} of window '{window.name}'"
+        for index in self.components:
+            if (worst_case_ns := table.components[index].worst_case_ns) is not None:
+                yield f"* no column: worst case {format_time(worst_case_ns)} of {_spell(table.components[index])}"
+            for port in table.components[index].ports:
+                if port.mandatory:
+                    yield f"* no column: {self.ports[index, port.name].key} is mandatory"
         for connection in table.connections:
             key = self._find_port(connection.sink).key
             if connection.way == "queue":
@@ -209,23 +226,25 @@ class _Export:
         yield "* reserve, task and diagnosis columns: 0; the values of the product are not public"
 
 
-def _check(table: Table) -> None:
+def _check(table: Table, components: list[Component]) -> None:
     """@raise InputError, which names the first part that RTMSafety cannot express."""
     if table.findings:
-        raise InputError(f"table: breaks {len(table.findings)} rule(s), first: {table.findings[0]}; correct the program")
-    if not table.components:
-        raise InputError("table: has no component; C99 has no empty array")
+        raise InputError(f"table: violates a rule, first of {len(table.findings)}: {table.findings[0]}; correct the program")
+    if not components:
+        raise InputError("table: has no component outside the built-in contexts, and C99 has no empty array; add one to a window with another name")
     if table.modes:
-        raise InputError(f"table: has {len(table.modes)} modes, and RTMSafety has none; export a table for each mode")
+        raise InputError("table: has modes, and RTMSafety has none; export a table for each mode")
     if len(table.cores()) > 1:
         cores = ", ".join(table.core_title(core) for core in table.cores())
         raise InputError(f"table: has windows on {cores}, and RTMSafety has no column for a core; export one core")
     for index, window in enumerate(table.windows):
         if window.kind not in ("periodic", "system"):
             raise InputError(f"table: window '{window.name}' is {window.kind}, and contexts of RTMSafety are periodic; use a periodic window")
-        if (count := len(table.components_of(index))) > COMPONENTS_MAX:
+        if (count := sum(component.window == index for component in components)) > COMPONENTS_MAX:
             raise InputError(f"table: window '{window.name}' has {count} components; a context of RTMSafety has at most {COMPONENTS_MAX}: use two windows")
-    for component in table.components:
+    for component in components:
+        if component.window is None:
+            raise InputError(f"table: {_spell(component)} runs in no window; add it to a window")
         if (count := len(component.ports)) > PORTS_MAX:
             raise InputError(f"table: {_spell(component)} has {count} ports; a component of RTMSafety has at most {PORTS_MAX}: join values in a struct")
 
