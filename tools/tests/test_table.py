@@ -38,7 +38,7 @@ def connection(source: int, out: str, sink: int, into: str, way: str, fresh: int
 
 
 TABLE: dict[str, object] = {
-    "schema": "mamori.table/4", "frame_ns": 10 * MS, "abort_policy": "spec_only",
+    "schema": "mamori.table/5", "frame_ns": 10 * MS, "abort_policy": "spec_only",
     "windows": [window("sense", 0, 0, 200 * US, MS, 150 * US, rate_hz=1000.0, slower_periods_ns=[2 * MS]),
                 window("plan", 1, 1200 * US, 7 * MS, 10 * MS, 6 * MS, partition="open"),
                 window("log", 1, 9 * MS, 500 * US, 10 * MS, 300 * US, kind="event_driven", events_per_cycle=3)],
@@ -48,7 +48,7 @@ TABLE: dict[str, object] = {
                     connection(1, "trend", 0, "hint", "next_frame")],
     "faults": [{"number": 0, "name": "Overspeed"}, {"number": 1, "name": "TrackingLost"}],
     "reactions": [{"fault": 0, "reaction": "Ss1", "within_ns": 20 * MS, "modes": []}],
-    "modes": [], "transitions": [], "parameters": [], "configuration_sets": [],
+    "safety": None, "modes": [], "transitions": [], "parameters": [], "configuration_sets": [],
     "findings": [],
 }  # fmt: skip
 
@@ -278,9 +278,9 @@ def test_missing_graphviz_is_named_and_nothing_is_written(
 
 @needs_graphviz
 @pytest.mark.verifies("SWR-TAB-007")
-def test_folder_gets_all_four_files_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_folder_gets_all_five_files_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert table(write(tmp_path), "--out", tmp_path / "a" / "b") == 0
-    assert sorted(path.name for path in (tmp_path / "a" / "b").iterdir()) == ["graph.svg", "modes.svg", "table.txt", "time_line.svg"]
+    assert sorted(path.name for path in (tmp_path / "a" / "b").iterdir()) == ["graph.svg", "modes.svg", "table.md", "table.txt", "time_line.svg"]
     assert capsys.readouterr().out == ""
 
 
@@ -317,7 +317,7 @@ def changed(key: str, value: object) -> str:
         ("[" * 100_000, "is no whole JSON document"),
         ("[]", "the table must be an object"),
         ("{}", "the table has no 'schema'"),
-        (changed("schema", "mamori.log/1"), "has the schema 'mamori.log/1', this command reads 'mamori.table/4'"),
+        (changed("schema", "mamori.log/1"), "has the schema 'mamori.log/1', this command reads 'mamori.table/5'"),
         (changed("frame_ns", True), "frame_ns must be an integer"),
         (changed("frame_ns", 10**30), "frame_ns must be an integer of 64 bits"),
         (changed("frame_ns", 0), "frame_ns is 0, must be positive, and no finding says that it is not"),

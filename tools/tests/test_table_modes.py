@@ -253,8 +253,8 @@ def test_names_of_modes_stay_names(tmp_path: Path, capsys: pytest.CaptureFixture
 @pytest.mark.parametrize(
     ("table", "sentence"),
     [
-        ({**ROBOT, "schema": "mamori.table/1"}, "has the schema 'mamori.table/1', this command reads 'mamori.table/4'; use a command"),
-        ({**ROBOT, "schema": "mamori.table/5"}, "has the schema 'mamori.table/5', this command reads 'mamori.table/4'; use a command"),
+        ({**ROBOT, "schema": "mamori.table/1"}, "has the schema 'mamori.table/1', this command reads 'mamori.table/5'; use a command"),
+        ({**ROBOT, "schema": "mamori.table/6"}, "has the schema 'mamori.table/6', this command reads 'mamori.table/5'; use a command"),
         ({**ROBOT, "schema": 2}, "schema must be a text"),
         (changed(modes__0="idle"), "modes[0] must be an object"),
         (changed(modes__0__safe=0), "modes[0].safe must be true or false"),

@@ -32,7 +32,7 @@ bool SafetyCycle::has_reaction(FaultIndex fault, std::size_t mode) const noexcep
 }
 
 Status SafetyCycle::apply_table() noexcept {
-    for (const ConfirmRow& row : state_.confirmations_) {
+    for (const ConfirmRow& row : state_.table_.confirmations) {
         Status result = state_.faults_.set_confirmation(row.fault, row.confirmation);
         if (result == Status::kOk) {
             result = state_.faults_.set_healing(row.fault, row.healing);
@@ -41,7 +41,7 @@ Status SafetyCycle::apply_table() noexcept {
             return result;
         }
     }
-    for (const SuperviseRow& row : state_.supervised_) {
+    for (const SuperviseRow& row : state_.table_.supervised) {
         const Checkpoints& points = row.checkpoints;
         if (points.supervisor != nullptr && &points.supervisor->get_table() != points.table) {
             return Status::kBadParameter;
@@ -138,7 +138,7 @@ void SafetyCycle::step_checkpoints(Instant now) noexcept {
     }
     // The status of the whole is that of the components, which have their own scopes.
     static_cast<void>(state_.checkpoints_->step(now));
-    for (const SuperviseRow& row : state_.supervised_) {
+    for (const SuperviseRow& row : state_.table_.supervised) {
         if (row.checkpoints.supervisor == nullptr) {
             continue;
         }
@@ -211,7 +211,7 @@ SelfTestStatus SafetyCycle::repeat_self_tests(Instant now) noexcept {
 bool SafetyCycle::has_failed_test(FaultIndex fault) const noexcept {
     bool result = false;
     for (std::size_t i = 0U; i < state_.schedules_.size(); ++i) {
-        result = result || (state_.self_tests_[i].fault == fault &&
+        result = result || (state_.table_.self_tests[i].fault == fault &&
                             state_.schedules_[i].get_status() >= SelfTestStatus::kFailed);
     }
     return result;
@@ -233,11 +233,11 @@ void SafetyCycle::report_faults(SelfTestStatus self_test, Instant now) noexcept 
 
 bool SafetyCycle::find_presence(FaultIndex fault, SelfTestStatus self_test, Instant now) noexcept {
     bool result = is_present(fault);
-    result = result || (fault == state_.rules_.self_test_fault && self_test == SelfTestStatus::kFailed);
-    result = result || (fault == state_.rules_.late_fault && is_reaction_late_);
-    result = result || (fault == state_.rules_.brake_fault && state_.brakes_.is_overdue(now));
+    result = result || (fault == state_.table_.cycle.self_test_fault && self_test == SelfTestStatus::kFailed);
+    result = result || (fault == state_.table_.cycle.late_fault && is_reaction_late_);
+    result = result || (fault == state_.table_.cycle.brake_fault && state_.brakes_.is_overdue(now));
     result = result || (is_test_failed_ && has_failed_test(fault));
-    for (const SuperviseRow& row : state_.supervised_) {
+    for (const SuperviseRow& row : state_.table_.supervised) {
         if (row.fault == fault && is_expired(row)) {
             result = true;
         }
@@ -250,7 +250,7 @@ void SafetyCycle::record_expiries(Instant now) noexcept {
     if (state_.supervision_.get_first_expired() == ExecutionSupervisor::kNoComponent) {
         return;
     }
-    for (const SuperviseRow& row : state_.supervised_) {
+    for (const SuperviseRow& row : state_.table_.supervised) {
         const std::size_t index = state_.supervision_.find(*row.watch.component);
         const bool is_known = row.fault != kNoFault && state_.faults_.is_latched(row.fault);
         if (state_.supervision_.has_just_expired(index) && !is_known) {
@@ -291,7 +291,7 @@ void SafetyCycle::follow_reset(bool reset_button) noexcept {
 bool SafetyCycle::have_brakes_failed(const CycleInputs& machine, SafeState state,
                                      Instant now) const noexcept {
     const bool is_at_bound =
-        calc_elapsed(state_.machine_.get_entered_at(), now) >= state_.rules_.stops.ss1_within;
+        calc_elapsed(state_.machine_.get_entered_at(), now) >= state_.table_.cycle.stops.ss1_within;
     const bool is_over = state_.brakes_.is_overdue(now) || (is_at_bound && state_.brakes_.is_waiting());
     return state == SafeState::kProtectiveStopSs1 && machine.can_hold && machine.is_standing && is_over;
 }
@@ -327,7 +327,7 @@ bool SafetyCycle::is_sto_unconfirmed(bool has_torque, Instant now) noexcept {
     const Duration elapsed = calc_elapsed(stepped_at_, now);
     const Duration missing_for = is_contradicted ? so_far.get_value() + elapsed : Duration{0};
     state_.torque_despite_sto_for_.set(missing_for);
-    return elapsed < Duration{0} || missing_for > state_.rules_.torque_feedback;
+    return elapsed < Duration{0} || missing_for > state_.table_.cycle.torque_feedback;
 }
 
 /// The outputs of the last frame show whether a reaction has begun. Each latched fault keeps its own time: a

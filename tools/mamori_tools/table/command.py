@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`mamori table FILE`: shows the JSON of a system table as text and as pictures.
+"""`mamori table FILE`: shows the JSON of a system table as text, as a page and as pictures.
 
 Exit status: 0 shown, 1 shown, but the table violates a rule, 2 nothing to show or wrong usage.
 
-@satisfies SWR-TAB-004, SWR-TAB-007, SWR-TAB-008, SWR-CLI-047      Design: docs/design/cost.md#the-command-table
+@satisfies SWR-TAB-004, SWR-TAB-007, SWR-TAB-008, SWR-CLI-047, SWR-CYC-033      Design: docs/design/cost.md#the-command-table
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from mamori_trace.base.errors import InputError
 from mamori_trace.base.text_file import read_text, refuse_output
 from mamori_trace.base.whole_file import whole_file
 
-FILES = {"text": "table.txt", "time_line": "time_line.svg", "graph": "graph.svg", "modes": "modes.svg"}
+FILES = {"text": "table.txt", "page": "table.md", "time_line": "time_line.svg", "graph": "graph.svg", "modes": "modes.svg"}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,7 +31,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="JSON that a program wrote with mamori::table_dump, for example by `safe_arm table --out FILE`")  # fmt: skip
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--text", action="store_true",
-                      help="print windows, connections, modes, parameters, reactions, and every rule that the table violates; the default")  # fmt: skip
+                      help="print windows, connections, modes, parameters, reactions, safety rows, and every violated rule; the default")  # fmt: skip
+    form.add_argument("--markdown", action="store_true", help="print the same rows as a Markdown page, for example for a safety manual")
     form.add_argument("--json", action="store_true", help="print the table as JSON after it has been checked")
     parser.add_argument("--svg-time-line", type=Path, metavar="OUT",
                         help="write a picture of one major frame: a lane for each core, windows with their budgets")  # fmt: skip
@@ -40,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--svg-modes", type=Path, metavar="OUT",
                         help="write a picture of the modes: transitions, events, initial mode and safe mode")  # fmt: skip
     parser.add_argument("--as", dest="target", choices=("rtmsafety",), help="write the eight tables of RTMSafety in C99 to the folder of --out instead")
-    parser.add_argument("--out", type=Path, metavar="DIR", help=f"write all four to DIR: {', '.join(FILES.values())}")
+    parser.add_argument("--out", type=Path, metavar="DIR", help=f"write all five to DIR: {', '.join(FILES.values())}")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -56,6 +57,8 @@ def run(arguments: argparse.Namespace) -> int:
     _write_all(texts)
     if arguments.json:
         print(json.dumps(json.loads(read_text(arguments.file, "table").text), indent=1))
+    elif arguments.markdown:
+        print(_make_page(table), end="")
     elif arguments.text or not texts:
         _print(table)
     elif table.findings:
@@ -65,7 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _choose_outputs(arguments: argparse.Namespace) -> list[tuple[Path, Callable[[Table], str]]]:
-    makers = {"text": _make_text, "time_line": _make_time_line, "graph": _make_graph, "modes": _make_modes}
+    makers = {"text": _make_text, "page": _make_page, "time_line": _make_time_line, "graph": _make_graph, "modes": _make_modes}
     pictures = {"time_line": arguments.svg_time_line, "graph": arguments.svg_graph, "modes": arguments.svg_modes}
     outputs: list[tuple[Path, Callable[[Table], str]]] = [(path, makers[kind]) for kind, path in pictures.items() if path is not None]
     if arguments.target is not None and arguments.out is None:
@@ -100,6 +103,12 @@ def _make_text(table: Table) -> str:
     from mamori_tools.table.text import make_text
 
     return make_text(table)
+
+
+def _make_page(table: Table) -> str:
+    from mamori_tools.table.page import make_page
+
+    return make_page(table)
 
 
 def _make_time_line(table: Table) -> str:

@@ -11,11 +11,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mamori_tools.table.mode_rows import ConfigurationSet, Mode, Parameter, Transition, read_mode, read_parameter, read_set, read_transition
+from mamori_tools.table.safety_rows import Safety, read_safety
 from mamori_trace.base.errors import InputError
 from mamori_trace.base.json_node import HOW_TO_FIX, JsonNode
 from mamori_trace.base.text_file import read_text
 
-SCHEMA = "mamori.table/4"
+SCHEMA = "mamori.table/5"
 MAX_BYTES = 50_000_000
 WAYS = ("same_window", "later_window", "next_frame", "crossing", "queue")
 KINDS = ("periodic", "event_driven", "triggered", "system", "invalid")
@@ -94,6 +95,8 @@ class Table:
     connections: tuple[Connection, ...]
     faults: dict[int, str]
     reactions: tuple[Reaction, ...]
+    safety: Safety | None
+    """None: a table of the kernel alone."""
     modes: tuple[Mode, ...]
     transitions: tuple[Transition, ...]
     parameters: tuple[Parameter, ...]
@@ -150,6 +153,7 @@ def read_table(path: Path) -> Table:
         connections=tuple(_read_connection(node, len(components), len(modes)) for node in root.at("connections").items()),
         faults={node.at("number").count(): node.at("name").text() for node in root.at("faults").items()},
         reactions=tuple(_read_reaction(node, len(modes)) for node in root.at("reactions").items()),
+        safety=read_safety(root.at("safety"), len(components)),
         modes=tuple(read_mode(node, len(components), len(sets)) for node in modes),
         transitions=tuple(read_transition(node, len(modes)) for node in root.at("transitions").items()),
         parameters=tuple(read_parameter(node, len(components)) for node in parameters),

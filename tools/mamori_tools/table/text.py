@@ -10,8 +10,10 @@ from collections.abc import Iterator
 
 from mamori_tools.table.document import Connection, Reaction, Table
 from mamori_tools.table.mode_text import make_matrices, make_parameters, make_sets, make_title, make_transitions
+from mamori_tools.table.safety_text import Section, format_id, make_fault_cells, make_safety_sections
 from mamori_tools.table.words import WAY_TEXTS, format_kind, format_modes, format_rate, format_time
 
+Row = tuple[str, ...]
 Line = tuple[str, str]
 """A line and its style: a heading, a finding, or neither."""
 HEADING, FINDING, PLAIN = "bold", "bold red", ""
@@ -21,45 +23,45 @@ RIGHT = frozenset({"offset", "length", "period", "budget", "within", "fresh with
 
 def make_lines(table: Table) -> Iterator[Line]:
     """The complete text, line by line, without line ends."""
-    yield f"frame {format_time(table.frame_ns)}, {_count(_list_processors(table), 'core')}, {_count(table.windows, 'window')}, " \
-          f"{_count(table.components, 'component')}, {_count(table.connections, 'connection')}", HEADING  # fmt: skip
+    yield make_headline(table), HEADING
+    for title, rows in make_sections(table):
+        yield PLAIN, PLAIN
+        if title:
+            yield title, HEADING
+        yield from _align(rows)
+    yield PLAIN, PLAIN
+    yield from make_findings(table)
+
+
+def make_headline(table: Table) -> str:
+    return f"frame {format_time(table.frame_ns)}, {_count(_list_processors(table), 'core')}, {_count(table.windows, 'window')}, " \
+           f"{_count(table.components, 'component')}, {_count(table.connections, 'connection')}"  # fmt: skip
+
+
+def make_sections(table: Table) -> Iterator[Section]:
+    """All rows of the table, equal in text and page. A section without a title continues the section before."""
     for core in table.cores():
         load = sum(table.windows[index].budget_ns / max(1, table.windows[index].period_ns) for index in table.windows_of(core))
-        yield PLAIN, PLAIN
-        yield f"{table.core_title(core)}, budgets take {100 * load:.1f} %", HEADING
-        yield from _align([WINDOW_COLUMNS, *(_window_cells(table, index) for index in table.windows_of(core))])
+        rows = [_window_cells(table, index) for index in table.windows_of(core)]
+        yield f"{table.core_title(core)}, budgets take {100 * load:.1f} %", [WINDOW_COLUMNS, *rows]
     if table.connections:
-        yield PLAIN, PLAIN
-        yield "connections", HEADING
         rows = [_connection_cells(table, connection) for connection in table.connections]
-        yield from _align([("from", "to", "arrives", "fresh within", "works in", "declared for"), *rows])
-    yield from _make_modes(table)
+        yield "connections", [("from", "to", "arrives", "fresh within", "works in", "declared for"), *rows]
+    if table.modes:
+        for number, matrix in enumerate(make_matrices(table)):
+            yield _plain(make_title(table)) if number == 0 else "", matrix
+    for title, rows in (("transitions", make_transitions(table)), ("parameters", make_parameters(table)),
+                        ("configuration sets", make_sets(table))):  # fmt: skip
+        if len(rows) > 1:
+            yield title, rows
     if table.faults or table.reactions:
-        yield PLAIN, PLAIN
-        yield "faults and reactions", HEADING
-        yield from _align([("fault", "reaction", "within", *(["holds in"] if table.modes else [])), *_reaction_cells(table)])
-    yield PLAIN, PLAIN
-    yield from _findings(table)
+        heads = ("id", "fault", "reaction", "within", *(["holds in"] if table.modes else []), "raised by", "latched after", "healed after")
+        yield "faults and reactions", [heads, *_reaction_cells(table)]
+    yield from ((title, rows) for title, rows in make_safety_sections(table) if len(rows) > 1)
 
 
 def _list_processors(table: Table) -> list[int]:
     return sorted({window.core if window.background_of is None else window.background_of for window in table.windows})
-
-
-def _make_modes(table: Table) -> Iterator[Line]:
-    if table.modes:
-        yield PLAIN, PLAIN
-        yield _plain(make_title(table)), HEADING
-        for number, matrix in enumerate(make_matrices(table)):
-            if number > 0:
-                yield PLAIN, PLAIN
-            yield from _align(matrix)
-    for title, rows in (("transitions", make_transitions(table)), ("parameters", make_parameters(table)),
-                        ("configuration sets", make_sets(table))):  # fmt: skip
-        if len(rows) > 1:
-            yield PLAIN, PLAIN
-            yield title, HEADING
-            yield from _align(rows)
 
 
 def make_text(table: Table) -> str:
@@ -70,7 +72,7 @@ def _count(rows: tuple[object, ...] | list[int], name: str) -> str:
     return f"{len(rows)} {name}{'' if len(rows) == 1 else 's'}"
 
 
-def _window_cells(table: Table, index: int) -> tuple[str, ...]:
+def _window_cells(table: Table, index: int) -> Row:
     window = table.windows[index]
     names = []
     for component in (table.components[number] for number in table.components_of(index)):
@@ -80,31 +82,35 @@ def _window_cells(table: Table, index: int) -> tuple[str, ...]:
             format_time(window.budget_ns), format_rate(window), format_kind(window), _plain(window.partition), ", ".join(names))  # fmt: skip
 
 
-def _connection_cells(table: Table, connection: Connection) -> tuple[str, ...]:
+def _connection_cells(table: Table, connection: Connection) -> Row:
     source, sink = (_plain(f"{table.component_name(end.component)}.{end.port}") for end in (connection.source, connection.sink))
     only_in = ", ".join(table.mode_name(mode) for mode in connection.only_in or ())
     return (source, sink, WAY_TEXTS[connection.way], format_time(connection.fresh_within_ns),
             format_modes(table, connection.modes), only_in)  # fmt: skip
 
 
-def _reaction_cells(table: Table) -> Iterator[tuple[str, ...]]:
+def _reaction_cells(table: Table) -> Iterator[Row]:
     for number, name in table.faults.items():
         rows = [row for row in table.reactions if row.fault == number]
         for row in rows:
-            yield _plain(name), *_answer_cells(table, row)
+            yield _fault_cells(table, number, name, _answer_cells(table, row))
         if not rows:
-            yield (_plain(name), "none", "", "")[: 4 if table.modes else 3]
+            yield _fault_cells(table, number, name, ("none", "", "")[: 3 if table.modes else 2])
     for row in table.reactions:
         if row.fault not in table.faults:
-            yield f"{row.fault}, not declared", *_answer_cells(table, row)
+            yield _fault_cells(table, row.fault, f"{row.fault}, not declared", _answer_cells(table, row))
 
 
-def _answer_cells(table: Table, row: Reaction) -> tuple[str, ...]:
+def _fault_cells(table: Table, number: int, name: str, answer: Row) -> Row:
+    return (format_id(number) if table.safety else "", _plain(name), *answer, *make_fault_cells(table, number))
+
+
+def _answer_cells(table: Table, row: Reaction) -> Row:
     modes = (format_modes(table, row.modes) or "all modes",) if table.modes else ()
     return _plain(row.reaction), format_time(row.within_ns), *modes
 
 
-def _findings(table: Table) -> Iterator[Line]:
+def make_findings(table: Table) -> Iterator[Line]:
     if not table.findings:
         yield "the table keeps every rule", HEADING
         return
@@ -118,12 +124,17 @@ def _plain(name: str) -> str:
     return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
 
 
-def _align(rows: list[tuple[str, ...]]) -> Iterator[Line]:
-    """Columns as wide as their contents; a column without any content is omitted with its heading."""
+def select_columns(rows: list[Row]) -> list[Row]:
+    """The rows without columns that have a heading only."""
     rows = [tuple(_plain(cell) for cell in row) for row in rows]
     kept = [column for column in range(len(rows[0])) if any(row[column] for row in rows[1:])]
-    widths = {column: max(len(row[column]) for row in rows) for column in kept}
+    return [tuple(row[column] for column in kept) for row in rows]
+
+
+def _align(rows: list[Row]) -> Iterator[Line]:
+    """Columns as wide as their contents."""
+    rows = select_columns(rows)
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for number, row in enumerate(rows):
-        cells = (row[column].rjust(widths[column]) if rows[0][column] in RIGHT else row[column].ljust(widths[column])
-                 for column in kept)  # fmt: skip
+        cells = (cell.rjust(width) if head in RIGHT else cell.ljust(width) for cell, width, head in zip(row, widths, rows[0], strict=True))
         yield ("  " + "  ".join(cells)).rstrip(), "underline" if number == 0 else PLAIN

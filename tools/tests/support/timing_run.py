@@ -27,13 +27,13 @@ CONNECTIONS = ((0, 1, "same_window"), (1, 2, "later_window"), (2, 3, "later_wind
 
 def make_table(windows: Sequence[tuple[Any, ...]] = WINDOWS, components: Sequence[tuple[Any, ...]] = COMPONENTS,
                connections: Sequence[tuple[int, int, str]] = CONNECTIONS, frame_us: int = 1000) -> dict[str, Any]:  # fmt: skip
-    """A document of the schema mamori.table/4."""
+    """A document of the schema mamori.table/5."""
 
     def make_end(component: int, port: str) -> dict[str, Any]:
         return {"component": component, "name": components[component][0], "port": port}
 
     return {
-        "schema": "mamori.table/4", "frame_ns": frame_us * US, "abort_policy": "spec_only",
+        "schema": "mamori.table/5", "frame_ns": frame_us * US, "abort_policy": "spec_only",
         "windows": [{"name": name, "core": core, "background_of": None, "partition": "", "kind": "periodic", "offset_ns": offset * US,
                      "length_ns": length * US, "period_ns": period * US, "budget_ns": budget * US, "rate_hz": None,
                      "slower_periods_ns": [], "events_per_cycle": None} for name, core, offset, length, period, budget in windows],
@@ -41,7 +41,7 @@ def make_table(windows: Sequence[tuple[Any, ...]] = WINDOWS, components: Sequenc
                        for row in components],
         "connections": [{"from": make_end(source, "out"), "to": make_end(sink, "in"), "way": way, "fresh_within_ns": None,
                          "only_in": None, "modes": []} for source, sink, way in connections],
-        "faults": [], "reactions": [], "modes": [], "transitions": [], "parameters": [], "configuration_sets": [], "findings": [],
+        "faults": [], "reactions": [], "safety": None, "modes": [], "transitions": [], "parameters": [], "configuration_sets": [], "findings": [],
     }  # fmt: skip
 
 

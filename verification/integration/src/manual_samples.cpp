@@ -12,11 +12,12 @@
 #include "mamori/ports/posix_rt/machine.hpp"
 #include "mamori/ports/posix_rt/watchdog_device.hpp"
 #include "mamori/ports/virtual_time/virtual_host.hpp"
-#include "mamori/safety/cycle/safety_part.hpp"
+#include "mamori/safety/cycle/safety_state.hpp"
 #include "mamori/safety/e2e/e2e.hpp"
 #include "mamori/safety/notice/node_monitor.hpp"
 #include "mamori/safety/notice/survival_notifier.hpp"
 #include "mamori/safety/self_test/region_crc.hpp"
+#include "mamori/table_dump/fault_names.hpp"
 #include "mamori/table_dump/table_dump.hpp"
 #include "mamori/timing/cost_run.hpp"
 
@@ -132,9 +133,20 @@ enum class Fault : FaultIndex { kMemory };
 static constexpr std::array<double, 7U> kSpeedLimits{};
 static RegionCrc constants{kSpeedLimits, 8U};
 
-[[maybe_unused]] static constexpr auto kRows = mamori::parts(
+static constexpr auto kRows = mamori::parts(
     self_test(constants, found_within(500_ms), raises(Fault::kMemory)),
     confirm(Fault::kMemory, {1U}));
+static constexpr auto kModule = mamori::safety::system(
+    mamori::frame(10_ms), mamori::window("idle", 0_ms, 2_ms, mamori::budget(1_ms), mamori::run(idle)), kRows);
+extern SafetyState state;
+
+#include "mamori/table_dump/fault_names.hpp"
+#include "mamori/table_dump/table_dump.hpp"
+
+static std::string save_table() {
+    return mamori::table_dump::save_json("table.json", make_view(kModule),
+                                         {mamori::table_dump::list_fault_names(kModule)}, &state.get_table());
+}
 
 }  // namespace safety_module
 

@@ -8,6 +8,7 @@
 #include "json_text.hpp"
 #include "mamori/table_dump/table_dump.hpp"
 #include "write_modes.hpp"
+#include "write_safety.hpp"
 
 namespace mamori::table_dump {
 namespace {
@@ -19,7 +20,7 @@ using json::quote;
 using json::quote_enumerator;
 using json::write_rows;
 
-constexpr const char* kSchema = "mamori.table/4";
+constexpr const char* kSchema = "mamori.table/5";
 
 const char* get_kind(const WindowRow& row) {
     switch (row.kind) {
@@ -120,8 +121,16 @@ std::string make_reaction(const SystemView& view, const Names& names, std::size_
 
 }  // namespace
 
-void write_json(std::ostream& out, const SystemView& view, const Names& names) {
+void write_json(std::ostream& out, const SystemView& view, const Names& names,
+                const safety::SafetyView* safety) {
     const std::vector<std::string> findings = describe_all(view);
+    Names used = names;
+    if (safety != nullptr) {
+        used.reactions.clear();
+        for (std::uint32_t i = 0U; i <= static_cast<std::uint32_t>(safety::Reaction::kSto); ++i) {
+            used.reactions.emplace_back(get_name(static_cast<safety::Reaction>(i)));
+        }
+    }
     out << "{\"schema\": \"" << kSchema << "\",\n \"frame_ns\": " << std::to_string(view.frame.ns)
         << ",\n \"abort_policy\": \""
         << (view.abort_policy == AbortPolicy::kSpecOnly ? "spec_only" : "openrtm_compat") << '"';
@@ -135,13 +144,15 @@ void write_json(std::ostream& out, const SystemView& view, const Names& names) {
                ", \"name\": " + quote_enumerator(names.faults, view.faults[i].fault) + "}";
     });
     write_rows(out, "reactions", view.reactions.size(),
-               [&](std::size_t i) { return make_reaction(view, names, i); });
+               [&](std::size_t i) { return make_reaction(view, used, i); });
+    write_safety(out, view, safety);
     write_modes(out, view, names);
     write_rows(out, "findings", findings.size(), [&](std::size_t i) { return quote(findings[i]); });
     out << "\n}\n";
 }
 
-std::string save_json(const std::string& path, const SystemView& view, const Names& names) {
+std::string save_json(const std::string& path, const SystemView& view, const Names& names,
+                      const safety::SafetyView* safety) {
     const std::string partial = path + ".part";
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) {
@@ -149,7 +160,7 @@ std::string save_json(const std::string& path, const SystemView& view, const Nam
     }
     {
         std::ofstream out{partial, std::ios::binary};
-        write_json(out, view, names);
+        write_json(out, view, names, safety);
         out.flush();
         if (out) {
             out.close();

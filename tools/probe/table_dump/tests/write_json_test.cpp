@@ -53,7 +53,7 @@ TEST(WriteJsonTest, WindowsContainTimesRatesAndIndices) {
     verifies("SWR-TAB-001");
     const json table = dump(make_view(kSystem));
 
-    EXPECT_EQ(table["schema"], "mamori.table/4");
+    EXPECT_EQ(table["schema"], "mamori.table/5");
     EXPECT_EQ(table["frame_ns"], 10'000'000);
     EXPECT_EQ(table["abort_policy"], "spec_only");
     ASSERT_EQ(table["windows"].size(), 3U);

@@ -127,7 +127,7 @@ class SafetyCycle : public Component, public CycleComponent {
     void follow_reset(bool reset_button) noexcept;
     bool have_brakes_failed(const CycleInputs& machine, SafeState state, Instant now) const noexcept;
     bool waits_for_brakes(FaultIndex fault) const noexcept {
-        return ((state_.rules_.brakes_first >> (fault & 63U)) & 1U) !=
+        return ((state_.table_.cycle.brakes_first >> (fault & 63U)) & 1U) !=
                0U;  // a table that uses it has at most 64
     }
     bool has_begun(const ReactionDemand& demand, const StopOutputs& applied) const noexcept;

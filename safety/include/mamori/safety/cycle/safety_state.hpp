@@ -85,14 +85,11 @@ class SafetyState final {
     template <const auto& kTable>
     constexpr SafetyState(SafetyStorage<kTable>& storage, Watchdog& watchdog,
                           AssumptionMonitor* assumptions = nullptr) noexcept
-        : rules_(kTable.cycle),
+        : table_(make_safety_view(kTable)),
           assumptions_(assumptions),
-          supervised_(kTable.supervised),
-          confirmations_(kTable.confirmations),
           reactions_(kTable.reactions),
           stop_sources_(detail::find_stop_sources(kTable)),
           checkpoints_(detail::find_checkpoints(kTable)),
-          self_tests_(kTable.self_tests),
           schedules_(storage.self_tests),
           period_(kTable.windows[detail::kCycleWindow<kTable>].period),
           faults_(storage.faults),
@@ -103,6 +100,8 @@ class SafetyState final {
     SafetyState(const SafetyState&) = delete;
     SafetyState& operator=(const SafetyState&) = delete;
 
+    /// Rows of the safety layer, for example for mamori::table_dump.
+    const SafetyView& get_table() const noexcept { return table_; }
     /// Supervision of the components: observer of the executive.
     ExecutionSupervisor& get_observer() noexcept { return supervision_; }
     const ExecutionSupervisor& get_supervision() const noexcept { return supervision_; }
@@ -119,14 +118,11 @@ class SafetyState final {
     friend class SafetyCycle;
 
     DecisionFlow flow_{};
-    const CycleRow& rules_;
+    SafetyView table_;
     AssumptionMonitor* assumptions_;
-    Span<const SuperviseRow> supervised_;
-    Span<const ConfirmRow> confirmations_;
     Span<const ReactionRow> reactions_;
     std::array<std::size_t, kStopConfirmationCount> stop_sources_;
     CheckpointSupervisor* checkpoints_;
-    Span<const SelfTestRow> self_tests_;
     Span<SelfTestSchedule> schedules_;
     Duration period_;  ///< of the safety cycle
     /// With its complement: it decides when the watchdog has to switch off what the software cannot.

@@ -23,6 +23,7 @@
 #include <array>
 #include <cstddef>
 
+#include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/system/system_extension.hpp"
 #include "mamori/safety/cycle/safety_part.hpp"
 
@@ -39,6 +40,20 @@ struct SafetySystem : DescribedSystem<PartTypes> {
     std::array<SelfTestRow, extension::kPartCount<SelfTestTag, PartTypes>> self_tests{};
     CycleRow cycle{};
 };
+
+/// The rows of the safety layer, for code that works with any table. The table must outlive it.
+struct SafetyView {
+    Span<const SuperviseRow> supervised{};
+    Span<const ConfirmRow> confirmations{};
+    Span<const StopSourceRow> stop_sources{};
+    Span<const SelfTestRow> self_tests{};
+    const CycleRow& cycle;
+};
+/// @param[in] table must outlive the result.
+template <typename Types>
+constexpr SafetyView make_safety_view(const SafetySystem<Types>& table) noexcept {
+    return {table.supervised, table.confirmations, table.stop_sources, table.self_tests, table.cycle};
+}
 
 template <typename Types, typename... Faults>
 constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
