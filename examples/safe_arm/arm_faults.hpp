@@ -6,14 +6,13 @@
 #ifndef EXAMPLES_SAFE_ARM_ARM_FAULTS_HPP
 #define EXAMPLES_SAFE_ARM_ARM_FAULTS_HPP
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace safe_arm {
 
 /// Numbers are positions in the fault register and bits in JointState::faults; they are never reused, and a
-/// new fault comes last.
+/// new fault comes last. Logs and reports spell a fault as its enumerator, without the k.
 enum class ArmFault : std::uint16_t {
     kEncoderImplausible,  ///< one channel moved farther in a cycle than the joint can; the other is trusted
     kEncoderDiscrepancy,  ///< the channels disagree and neither is known to be right, or both are implausible
@@ -55,15 +54,6 @@ constexpr std::uint32_t to_bit(ArmFault fault) noexcept {
 /// Faults that need no reset without torque: there, they only prevent the start.
 inline constexpr std::uint32_t kPermissions =
     to_bit(ArmFault::kProtectiveStop) | to_bit(ArmFault::kEnableLost) | to_bit(ArmFault::kRunReleased);
-
-/// Spelling of a fault in logs and reports, indexed by its number.
-inline constexpr std::array<const char*, kArmFaultCount> kArmFaultNames{
-    "EncoderImplausible", "EncoderDiscrepancy", "EncoderStuck",      "FollowingError", "Overspeed",
-    "PositionLimit",      "TorqueDeviation",    "ControllerSilent",  "CommandStale",   "PowerLost",
-    "BrakeFault",         "SelfTestFailed",     "MeasurementStale",  "ReactionLate",   "BrakeTestOld",
-    "StopNotFollowed",    "EmergencyStop",      "SwitchDiscrepancy", "ProtectiveStop", "MovementAtRest",
-    "EnableLost",         "EnablingSqueezed",   "ModeSelector",      "ClockDeviation", "PositionDoubtful",
-    "RunReleased"};
 
 }  // namespace safe_arm
 

@@ -25,7 +25,7 @@ int fail(int exit_code, const std::string& message) {
 std::vector<std::string> make_notes() {
     std::string state = std::string{"the arm ended in state "} + get_name(supervisor.get_state());
     if (supervisor.get_first_fault() < kArmFaultCount) {
-        state += std::string{", first fault "} + kArmFaultNames[supervisor.get_first_fault()];
+        state += std::string{", first fault "} + get_fault_names()[supervisor.get_first_fault()];
     }
     return {state};
 }

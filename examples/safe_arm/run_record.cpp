@@ -12,6 +12,7 @@
 #include "arm_faults.hpp"
 #include "arm_limits.hpp"
 #include "safe_arm_system.hpp"
+#include "table_output.hpp"
 
 namespace safe_arm {
 namespace {
@@ -56,7 +57,7 @@ std::string describe_argument(const mamori::Event& event) {
         case CycleEvent::kStateEntered:
             return get_name(static_cast<SafeState>(event.argument));
         case CycleEvent::kFaultLatched:
-            return kArmFaultNames[static_cast<std::size_t>(event.argument)];
+            return get_fault_names()[static_cast<std::size_t>(event.argument)].c_str();
         case CycleEvent::kReactionBegun:
             return get_name(static_cast<Reaction>(event.argument));
         case CycleEvent::kAssumptionFailed:
@@ -93,7 +94,7 @@ std::string make_events_text(const mamori::EventLog& events) {
 /// watchdog.
 const char* find_detector(const FrameFacts& facts, bool has_begun_stop) {
     if (facts.first_fault != mamori::safety::kNoFault) {
-        return kArmFaultNames[facts.first_fault];
+        return get_fault_names()[facts.first_fault].c_str();
     }
     if (facts.is_watchdog_expired) {
         return "WatchdogExpired";

@@ -9,6 +9,7 @@
 #include "run_record.hpp"
 #include "safe_arm_system.hpp"
 #include "safety_supervisor.hpp"
+#include "table_output.hpp"
 
 namespace safe_arm {
 namespace {
@@ -39,7 +40,7 @@ std::string make_name_table() {
     }
     Json faults = Json::object();
     for (std::size_t fault = 0U; fault < kArmFaultCount; ++fault) {
-        faults[std::to_string(fault)] = kArmFaultNames[fault];
+        faults[std::to_string(fault)] = get_fault_names()[fault];
     }
     Json assumptions = Json::object();
     for (std::size_t assumption = 0U; assumption < kArmAssumptionNames.size(); ++assumption) {

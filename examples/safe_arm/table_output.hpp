@@ -8,10 +8,14 @@
 #define EXAMPLES_SAFE_ARM_TABLE_OUTPUT_HPP
 
 #include <string>
+#include <vector>
 
 namespace safe_arm {
 
-/// Writes windows, components and connections of the static table, and the reactions of the safety layer.
+/// Spelling of the faults in logs and reports, by their numbers.
+const std::vector<std::string>& get_fault_names();
+
+/// Writes windows, components and connections of the static table, and the rows of the safety layer.
 /// @return empty on success, otherwise one sentence with the path and the cause.
 [[nodiscard]] std::string save_table(const std::string& path);
 

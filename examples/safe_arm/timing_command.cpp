@@ -26,7 +26,7 @@ int fail(int exit_code, const std::string& message) {
 std::vector<std::string> make_notes(const RealTimeMachine& machine) {
     std::string state = std::string{"the arm ended in state "} + get_name(supervisor.get_state());
     if (supervisor.get_first_fault() < kArmFaultCount) {
-        state += std::string{", first fault "} + kArmFaultNames[supervisor.get_first_fault()];
+        state += std::string{", first fault "} + get_fault_names()[supervisor.get_first_fault()];
     }
     return {state,
             "the simulated arm was not ready for " + std::to_string(machine.get_late_count()) + " frames"};
@@ -41,7 +41,7 @@ std::vector<std::string> make_findings(mamori::safety::SafeState state, std::siz
     }
     std::string finding = std::string{"the arm left its operating state and ended in "} + get_name(state);
     if (first_fault < kArmFaultCount) {
-        finding += std::string{", first fault "} + kArmFaultNames[first_fault];
+        finding += std::string{", first fault "} + get_fault_names()[first_fault];
     }
     return {finding};
 }

@@ -16,7 +16,7 @@
 namespace safe_arm {
 
 /// Finding of the run if the arm left its operating state, with the first fault. Empty before and during
-/// operation. @param[in] first_fault index in kArmFaultNames; kArmFaultCount and above: no fault.
+/// operation. @param[in] first_fault index in get_fault_names(); kArmFaultCount and above: no fault.
 std::vector<std::string> make_findings(mamori::safety::SafeState state, std::size_t first_fault);
 
 /// Runs `frames` major frames and writes the files for `mamori timing` to the folder `out`. Without a motion,

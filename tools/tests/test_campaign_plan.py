@@ -241,10 +241,9 @@ def test_a_plan_may_name_the_faults_that_the_program_detects_and_no_others() -> 
     header = ROOT / "examples/safe_arm/arm_faults.hpp"
     if not header.exists():
         pytest.skip(f"{header} is absent")
-    names = re.search(r"kArmFaultNames\{(.*?)\}", header.read_text(encoding="utf-8"), re.DOTALL)
+    names = re.findall(r"^    k(\w+), +///<", header.read_text(encoding="utf-8"), re.MULTILINE)
 
-    assert names is not None
-    assert {NOTHING, "SupervisorSilent", "WatchdogExpired", *re.findall(r'"(\w+)"', names[1])} == set(DETECTED_FAULTS)
+    assert {NOTHING, "SupervisorSilent", "WatchdogExpired", *names} - {"Count"} == set(DETECTED_FAULTS)
 
 
 @pytest.mark.verifies("SWR-CMP-001", technique="interface")

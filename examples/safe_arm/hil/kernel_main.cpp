@@ -14,6 +14,7 @@
 #include "mamori/ports/posix_rt/machine_options.hpp"
 #include "model_check.hpp"
 #include "replay.hpp"
+#include "table_output.hpp"
 
 namespace {
 
@@ -130,7 +131,7 @@ nlohmann::ordered_json make_report(const Watcher& watcher, Status status) {
             {"worst_lateness_s", to_seconds(report.openings.worst_lateness)},
             {"late_releases", hil::safety_state.get_supervision().get_late_release().count},
             {"final_state", get_name(hil::supervisor.get_state())},
-            {"first_fault", first < kArmFaultCount ? nlohmann::ordered_json(kArmFaultNames[first])
+            {"first_fault", first < kArmFaultCount ? nlohmann::ordered_json(get_fault_names()[first])
                                                    : nlohmann::ordered_json(nullptr)},
             {"closed_at_s", to_s(watcher.get_closed_at_ns())},
             {"last_answer_s", to_s(watcher.get_last_answer_ns())},

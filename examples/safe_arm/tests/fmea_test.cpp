@@ -10,6 +10,7 @@
 
 #include "arm_safety.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "table_output.hpp"
 
 namespace safe_arm {
 namespace {
@@ -112,7 +113,7 @@ TEST(FmeaTest, EachFaultOfTheCompiledTableHasARowWithItsReactionAndTime) {
         if (row.reaction == static_cast<std::uint32_t>(Reaction::kNone)) {
             continue;  // a control that a mode does not need
         }
-        compiled.insert(kArmFaultNames[row.fault] +
+        compiled.insert(get_fault_names()[row.fault] +
                         (": " + std::string{get_name(static_cast<Reaction>(row.reaction))}) + ", " +
                         to_text(row.within));
     }

@@ -20,6 +20,7 @@
 #include "mamori/trace/verifies.hpp"
 #include "run_recorder.hpp"
 #include "safety_supervisor.hpp"
+#include "table_output.hpp"
 #include "timing_command.hpp"
 
 namespace safe_arm {
@@ -470,7 +471,7 @@ TEST_F(RunTest, TimingOfAnArmThatLeftItsOperatingStateIsAFinding) {
     }
     EXPECT_EQ(make_findings(SafeState::kLockedOut, 0U).front(),
               std::string{"the arm left its operating state and ended in LockedOut, first fault "} +
-                  kArmFaultNames[0]);
+                  get_fault_names()[0]);
     EXPECT_EQ(make_findings(SafeState::kLockedOut, kArmFaultCount).front(),
               "the arm left its operating state and ended in LockedOut");
 }

@@ -3,6 +3,7 @@
 #include "safe_arm_system.hpp"
 
 #include "mamori/trace/verifies.hpp"
+#include "table_output.hpp"
 
 namespace safe_arm {
 namespace {
@@ -68,7 +69,7 @@ TEST(ArmReactionsTest, EachFaultAloneLeadsToItsRow) {
 
         const mamori::safety::ReactionDemand demand = calc_reaction(executive.get_view().reactions, faults);
         EXPECT_EQ(demand.fault, i);
-        EXPECT_GE(demand.reaction, Reaction::kSs2) << kArmFaultNames[i];
+        EXPECT_GE(demand.reaction, Reaction::kSs2) << get_fault_names()[i];
         EXPECT_EQ(demand.within, 2_ms);
     }
 }

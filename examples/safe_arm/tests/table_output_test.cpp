@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goal: the example's table leaves the program as it is, with the reactions of its faults. Method: read back
+// Goal: the example's table leaves the program as it is, with the names and reactions of its faults and its
+// safety rows. Method: read back
 // as JSON.
 #include "table_output.hpp"
 
@@ -31,6 +32,20 @@ TEST(TableOutputTest, TheWholeTableIsWrittenWithTheReactionOfEachFault) {
     EXPECT_EQ(table["faults"][0]["name"], "EncoderImplausible");
     EXPECT_EQ(table["reactions"][0]["reaction"], "Ss1");
     EXPECT_EQ(table["findings"], nlohmann::json::array());
+}
+
+TEST(TableOutputTest, TheSafetyRowsAreWrittenAndTheNamesOfFaultsAreTheirEnumerators) {
+    verifies("SWR-CYC-032");
+    const std::string path = ::testing::TempDir() + "safe_arm_safety.json";
+
+    ASSERT_EQ(save_table(path), "");
+    const nlohmann::json table = nlohmann::json::parse(std::ifstream{path});
+    EXPECT_EQ(table["safety"]["supervised"].size(), 6U);
+    EXPECT_EQ(table["safety"]["self_tests"].size(), 2U);
+    EXPECT_EQ(table["safety"]["cycle"]["ss1_within_ns"], kStopBounds.ss1_within.ns);
+    EXPECT_EQ(get_fault_names().size(), kArmFaultCount);
+    EXPECT_EQ(get_fault_names()[to_index(ArmFault::kReactionLate)], "ReactionLate");
+    EXPECT_EQ(get_fault_names().back(), "PositionDoubtful");
 }
 
 TEST(TableOutputTest, AFileThatCannotBeWrittenIsNamed) {
