@@ -3,17 +3,15 @@
 /// Both ends of the connection from the controller to the safety partition. What lies between them is not
 /// trusted: only an accepted command is forwarded.
 ///
-/// @satisfies SWR-SAF-041      Design: docs/design/safe_arm.md#messages
+/// @satisfies SWR-SAF-008, SWR-SAF-041      Design: docs/design/safe_arm.md#messages
 #ifndef EXAMPLES_SAFE_ARM_COMMAND_LINK_HPP
 #define EXAMPLES_SAFE_ARM_COMMAND_LINK_HPP
 
 #include "arm_limits.hpp"
 #include "mamori/kernel/payload/fields.hpp"
-#include "mamori/kernel/system/system.hpp"
 #include "mamori/safety/e2e/hardened_sequence.hpp"
-#include "mamori/safety/e2e/in_port.hpp"
-#include "mamori/safety/e2e/out_port.hpp"
 #include "mamori/safety/e2e/profile_04.hpp"
+#include "mamori/safety/e2e/protected_link.hpp"
 #include "messages.hpp"
 
 namespace safe_arm {
@@ -26,7 +24,7 @@ inline constexpr mamori::safety::SentIdChannel kCommandChannelId{0x41524D01U, kC
 using CommandFrameMessage = mamori::safety::E2eMessage<TorqueCommand, CommandProfile, kCommandChannelId>;
 using CommandFrame = CommandFrameMessage::Frame;
 
-/// HARDENED. The monitor checks the age in the command itself; the channel is not trusted with it. After
+/// HARDENED. The table checks the age of the command itself; the channel is not trusted with it. After
 /// more losses than tolerated, the fault CommandStale is latched, so the order may be found again without a
 /// reset.
 inline constexpr mamori::safety::E2eInLimits<mamori::safety::HardenedSequence> kCommandLimits{
@@ -38,46 +36,8 @@ inline constexpr mamori::safety::E2eInLimits<mamori::safety::HardenedSequence> k
     {}};
 
 /// Protects the commands of the controller. It runs in the partition of the controller.
-class CommandSender final : public mamori::Component {
-  public:
-    constexpr CommandSender() noexcept : Component("command_sender") {}
-
-    mamori::InPort<TorqueCommand> in{*this, "in"};
-    mamori::OutPort<CommandFrame> out{*this, "out"};
-    using Ports = mamori::Ports<&CommandSender::in, &CommandSender::out>;
-
-    mamori::Status on_execute(mamori::ContextHandle) noexcept override {
-        return in.is_new() ? protected_.write(in.read()) : mamori::Status::kOk;
-    }
-
-  private:
-    mamori::safety::E2eOutPort<CommandFrameMessage> protected_{out};
-};
-
-/// Forwards accepted commands only.
-class CommandReceiver final : public mamori::Component {
-  public:
-    constexpr CommandReceiver() noexcept : Component("command_receiver") {}
-
-    mamori::InPort<CommandFrame> in{*this, "in"};
-    mamori::OutPort<TorqueCommand> out{*this, "out"};
-    using Ports = mamori::Ports<&CommandReceiver::in, &CommandReceiver::out>;
-
-    mamori::Status on_execute(mamori::ContextHandle context) noexcept override {
-        TorqueCommand command{};
-        if (protected_.read(context.now, command) == mamori::safety::E2eWorth::kNew) {
-            out.write(command);
-        }
-        return mamori::Status::kOk;
-    }
-    std::uint32_t get_count(mamori::safety::E2eOutcome outcome) const noexcept {
-        return protected_.get_count(outcome);
-    }
-
-  private:
-    static constexpr TorqueCommand kNoCommand{};
-    mamori::safety::E2eInPort<CommandFrameMessage, kCommandLimits> protected_{in, kNoCommand};
-};
+using CommandSender = mamori::safety::E2eSender<CommandFrameMessage>;
+using CommandReceiver = mamori::safety::E2eReceiver<CommandFrameMessage, kCommandLimits>;
 
 }  // namespace safe_arm
 

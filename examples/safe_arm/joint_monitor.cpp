@@ -46,14 +46,9 @@ Status JointMonitor::on_execute(ContextHandle context) noexcept {
     result.faults |= judge_stuck(now) | judge_motion(result) | judge_torque(now) | judge_brakes(now) |
                      judge_power(now) | check_rest(result) | check_reference(result.position_rad) |
                      compare_with_model(result) | check_clock(Instant{now.drive_clock_ns}, context.now);
-    const bool is_fresh = is_command_fresh(context.now);
-    if (is_controlled() && !is_fresh) {
-        result.faults |= to_bit(ArmFault::kCommandStale);
-    }
     result.is_clock_checked = clocks_.get_verdict() == ClockVerdict::kGood;
     result.is_standing = standstill_.step(result.velocity_rad_s, context.now);
     result.is_setpoint_near =
-        is_fresh &&
         calc_following_errors(command.read().setpoint_rad, result.position_rad, make_uniform(kBumplessRad))
             .is_empty();
     past_rad_[oldest_] = result.position_rad;
@@ -252,11 +247,6 @@ std::uint32_t JointMonitor::compare_with_model(const JointState& now) noexcept {
         faults |= is_within(mean_difference_nm_[j], distance_nm) ? 0U : to_bit(ArmFault::kPositionDoubtful);
     }
     return faults;
-}
-
-bool JointMonitor::is_command_fresh(Instant now) const noexcept {
-    return command.has_value() &&
-           !is_message_too_old(Instant{command.read().sent_at_ns}, now, kCommandAgeMax);
 }
 
 }  // namespace safe_arm

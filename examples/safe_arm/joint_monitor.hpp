@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Judges the measured arm: which encoder channel can be trusted, whether speed, position, torque and
-/// controller messages are inside their limits. It reports what it sees in this cycle; debouncing and
+/// Judges the measured arm: which encoder channel can be trusted, whether speed, position and torque are
+/// inside their limits. It reports what it sees in this cycle; debouncing and
 /// latching are the fault register's work.
 ///
 /// @satisfies SWR-SAF-005, SWR-SAF-006, SWR-SAF-007, SWR-SAF-008, SWR-SAF-029, SWR-SAF-034, SWR-SAF-037
@@ -54,7 +54,6 @@ class JointMonitor final : public mamori::Component {
     std::uint32_t check_clock(mamori::Instant drives, mamori::Instant own) noexcept;
     std::uint32_t check_reference(const JointVector& position_rad) noexcept;
     std::uint32_t compare_with_model(const JointState& now) noexcept;
-    bool is_command_fresh(mamori::Instant now) const noexcept;
     bool is_controlled() const noexcept {
         return is_torque_on() && drive.read().source == TorqueSource::kController;
     }

@@ -11,6 +11,7 @@ namespace safe_arm {
 using mamori::safety::alive;
 using mamori::safety::confirmed_by;
 using mamori::safety::deadline;
+using mamori::safety::protect;
 using mamori::safety::raises;
 using mamori::safety::StopConfirmation;
 using mamori::safety::supervise;
@@ -33,9 +34,9 @@ ArmReader reader{inputs};
 JointMonitor monitor;
 SafetySupervisor supervisor{safety_state, event_log};
 MotionController controller;
-CommandSender command_sender;
+CommandSender command_sender{"command_sender"};
 mamori::ports::virtual_time::SimulatedChannel<CommandFrame, kChannelCapacity> channel{"channel"};
-CommandReceiver command_receiver;
+CommandReceiver command_receiver{"command_receiver"};
 DriveGate gate{outputs};
 
 static constexpr auto kSafeArm = mamori::safety::system(
@@ -48,6 +49,7 @@ static constexpr auto kSafeArm = mamori::safety::system(
     supervise(command_receiver, alive(), deadline(kSafetyComponentMax)),
     supervise(gate, alive(), deadline(kSafetyComponentMax)),
     supervise(controller, alive(), deadline(kControllerMax), raises(ArmFault::kControllerSilent)),
+    protect(command_receiver, mamori::fresh_within(kCommandAgeMax), raises(ArmFault::kCommandStale)),
     confirmed_by(monitor.state, StopConfirmation::kStandstill),
     confirmed_by(reader.reading, StopConfirmation::kClosedBrakes, StopConfirmation::kTorqueOff),
     mamori::window("protect", 0_us, 300_us, mamori::budget(250_us), mamori::run(reader, monitor, supervisor)),

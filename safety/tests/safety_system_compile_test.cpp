@@ -19,6 +19,7 @@ struct Defect {
 
 class SafetySystemCompileTest : public ::testing::TestWithParam<Defect> {};
 class SelfTestRowCompileTest : public ::testing::TestWithParam<Defect> {};
+class ProtectRowCompileTest : public ::testing::TestWithParam<Defect> {};
 
 TEST(SafetySystemCompileTest, ATableWithoutADefectCompiles) {
     verifies("SWR-CYC-002");
@@ -58,6 +59,18 @@ TEST_P(StopSourceCompileTest, IsRejectedWithTheFaultyElement) {
 TEST_P(SelfTestRowCompileTest, IsRejectedWithTheFaultyElement) {
     verifies("SWR-CYC-023", Technique::kBoundaryValues, Polarity::kViolation);
     expect_rejected(GetParam());
+}
+
+TEST_P(ProtectRowCompileTest, IsRejectedWithTheFaultyElement) {
+    verifies("SWR-CYC-035", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_rejected(GetParam());
+}
+
+TEST(ProtectRowLimitsCompileTest, RowsAtTheirLimitsCompile) {
+    verifies("SWR-CYC-035", Technique::kBoundaryValues);
+    const rig::Compilation result = rig::compile("safety_system_source.cpp", "MAMORI_DEFECT_NONE");
+
+    EXPECT_EQ(result.exit_status, 0) << result.messages;
 }
 
 constexpr Defect kDefects[] = {
@@ -147,6 +160,21 @@ constexpr Defect kSelfTestDefects[] = {
     {"TESTED_WITHOUT_TIME", "self_test", "states found_within(...)"},
 };
 INSTANTIATE_TEST_SUITE_P(EachDefect, SelfTestRowCompileTest, ::testing::ValuesIn(kSelfTestDefects),
+                         [](const auto& one) { return std::string{one.param.macro}; });
+
+constexpr Defect kProtectDefects[] = {
+    {"PROTECTED_UNANSWERED", "protect", "states raises(...), the fault of a loss"},
+    {"PROTECTED_UNSTAMPED", "protect", "states sent_at_ns"},
+    {"PROTECTED_OTHER_FAULT", "faults", "all faults of a system are enumerators of one enumeration"},
+    {"PROTECTED_FAULT", "OtherReceiver", "protect(...) raises a fault"},
+    {"PROTECTED_STRANGER", "TableRow<1>", "protect(...) names a receiver that no window of the table runs"},
+    {"PROTECTED_TWICE", "Receiver", "two protect(...)"},
+    {"PROTECTED_TOO_YOUNG", "OtherReceiver", "is at least the period of the receiver"},
+    {"PROTECTED_LEAD", "OtherReceiver", "is at least the period of the receiver"},
+    {"PROTECTED_LOSSES", "OtherReceiver", "a gap of more messages than fit into fresh_within(...)"},
+    {"PROTECTED_OTHER_CORE", "OtherReceiver", "runs on the core and in the class of the safety cycle"},
+};
+INSTANTIATE_TEST_SUITE_P(EachDefect, ProtectRowCompileTest, ::testing::ValuesIn(kProtectDefects),
                          [](const auto& one) { return std::string{one.param.macro}; });
 
 }  // namespace

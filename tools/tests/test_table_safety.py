@@ -27,6 +27,8 @@ SAFETY: dict[str, Any] = {
     "stop_sources": [{"component": 1, "port": "state", "confirms": ["standstill", "torque_off"]},
                      {"component": None, "port": "?", "confirms": ["closed_brakes"]}],
     "self_tests": [{"found_within_ns": 2_000 * MS, "fault": 3}, {"found_within_ns": 1_000 * MS, "fault": 9}],
+    "protections": [{"component": 2, "profile": 4, "fresh_within_ns": 3 * MS, "lead_ns": 0, "max_delta": 3, "fault": 1},
+                    {"component": 3, "profile": 44, "fresh_within_ns": 9 * MS, "lead_ns": 40 * US, "max_delta": None, "fault": 2}],
 }  # fmt: skip
 
 
@@ -52,8 +54,8 @@ def test_each_fault_is_shown_with_its_id_its_causes_and_its_confirmation(tmp_pat
     assert lines[first : first + 5] == [
         "id fault reaction within raised by latched after healed after",
         "F0 Fast Sto 2 ms machine 3 cycles, minus 2 per cycle without it 5 cycles and 7 ms",
-        "F1 Silent Sto 2 ms reader 1 cycle 4 cycles",
-        "F2 Late Sto 2 ms late reaction, unconfirmed brakes 9 ms 1 cycle",
+        "F1 Silent Sto 2 ms reader, loss at controller 1 cycle 4 cycles",
+        "F2 Late Sto 2 ms loss at drive, late reaction, unconfirmed brakes 9 ms 1 cycle",
         "F3 Test Sto 2 ms self test 0, failed self test 2 cycles or 9 ms 1 cycle",
     ]
 
@@ -78,6 +80,11 @@ def test_supervision_stops_self_tests_and_settings_are_shown(tmp_path: Path, cap
         "0 2 s F3 Test",
         "1 1 s F9 (not declared)",
         "",
+        "protected connections",
+        "receiver E2E fresh within lead losses in a row fault",
+        "controller profile 4 3 ms 2 F1 Silent",
+        "drive profile 44 9 ms 40 µs F2 Late",
+        "",
         "safety cycle",
         "setting value",
         "SS2 becomes SS1 after 300 ms",
@@ -97,7 +104,7 @@ def test_rows_that_a_table_does_not_have_are_not_shown(tmp_path: Path, capsys: p
     few = show(capsys, write(tmp_path, {"cycle": cycle, **{key: [] for key in SAFETY if key != "cycle"}}))
     none = show(capsys, write(tmp_path, None))
 
-    assert not {"supervision", "confirmations of stops", "repeated self tests"} & set(few)
+    assert not {"supervision", "confirmations of stops", "repeated self tests", "protected connections"} & set(few)
     assert {"brakes close within 100 ms, without contacts", "STO after closed brakes none"} <= set(few)
     assert "F1 Silent Sto 2 ms machine 1 cycle 1 cycle" in few
     assert "safety cycle" not in none
@@ -119,7 +126,7 @@ def test_page_has_the_rows_of_the_text_and_every_finding(tmp_path: Path, capsys:
     assert titles == [line.lower() for line in text[1:] if line and not line.startswith("  ")][:-1]
     assert last == "rules"
     assert page[-1] == r"* window 'a_b': too \| long"
-    assert "| F1 | Silent | Sto | 2 ms | reader | 1 cycle | 4 cycles |" in page
+    assert "| F1 | Silent | Sto | 2 ms | reader, loss at controller | 1 cycle | 4 cycles |" in page
 
 
 @pytest.mark.verifies("SWR-CYC-033", technique="error_guessing", polarity="violation")
@@ -151,6 +158,8 @@ def _change(section: str, key: str, value: object) -> dict[str, Any]:
         (_change("supervised", "late_cycles", None), "safety.supervised[0].late_cycles must be an integer"),
         (_change("confirmations", "fault", 1.5), "safety.confirmations[0].fault must be an integer"),
         (_change("stop_sources", "confirms", ["standstil"]), "safety.stop_sources[0].confirms[0] is 'standstil'; nearest: standstill"),
+        (_change("protections", "max_delta", "2"), "safety.protections[0].max_delta must be an integer"),
+        (_change("protections", "component", 4), "safety.protections[0].component is 4, beyond the 4 rows"),
         (_change("self_tests", "found_within_ns", "1 s"), "safety.self_tests[0].found_within_ns must be an integer"),
     ],
 )

@@ -14,6 +14,7 @@ namespace safe_arm::hil {
 using mamori::safety::alive;
 using mamori::safety::confirmed_by;
 using mamori::safety::deadline;
+using mamori::safety::protect;
 using mamori::safety::raises;
 using mamori::safety::StopConfirmation;
 using mamori::safety::supervise;
@@ -66,6 +67,7 @@ static constexpr auto kHilSystem = mamori::safety::system(
     supervise(monitor, alive(), deadline(390_us)), supervise(supervisor, alive(), deadline(390_us)),
     supervise(gate, alive(), deadline(390_us)), supervise(encoder, alive(), deadline(390_us)),
     supervise(command_receiver, alive(), deadline(390_us), raises(ArmFault::kControllerSilent)),
+    protect(command_receiver, mamori::fresh_within(kCommandAgeMax), raises(ArmFault::kCommandStale)),
     confirmed_by(monitor.state, StopConfirmation::kStandstill),
     confirmed_by(filter.out, StopConfirmation::kClosedBrakes, StopConfirmation::kTorqueOff),
     mamori::window(

@@ -42,8 +42,8 @@ class CommandLinkTest : public ::testing::Test {
         return receiver_.out.publish(now_);
     }
 
-    CommandSender sender_;
-    CommandReceiver receiver_;
+    CommandSender sender_{"sender"};
+    CommandReceiver receiver_{"receiver"};
     Instant now_{};
 };
 

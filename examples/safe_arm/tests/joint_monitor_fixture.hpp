@@ -31,9 +31,6 @@ class JointMonitorTest : public ::testing::Test {
     /// One frame with the fixture's reading, command and drive values.
     JointState step() {
         feed(sut_.reading, reading_);
-        if (is_command_sent_) {
-            command_.sent_at_ns = (now_ - mamori::Duration{700000}).ns;
-        }
         feed(sut_.command, command_);
         feed(sut_.drive, drive_);
         EXPECT_EQ(sut_.on_execute({0, now_}), mamori::Status::kOk);
@@ -69,7 +66,6 @@ class JointMonitorTest : public ::testing::Test {
     TorqueCommand command_{};
     DriveCommand drive_{};
     mamori::Instant now_{1000000000};
-    bool is_command_sent_{true};
 };
 
 }  // namespace safe_arm

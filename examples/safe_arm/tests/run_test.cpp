@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "arm_faults.hpp"
+#include "arm_limits.hpp"
 #include "mamori/kernel/record/flight_reader.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "run_recorder.hpp"
@@ -137,6 +138,23 @@ TEST_F(RunTest, FaultAndItsReactionAreRecorded) {
     EXPECT_EQ(summary["reaction"], "Sto");
     EXPECT_EQ(summary["final_state"], "Safe");
     EXPECT_FALSE(summary["standstill_at_s"].is_null());
+}
+
+TEST_F(RunTest, CommandsMayBeMissingForTheToleratedLossesAndNoFrameLonger) {
+    verifies("SWR-SAF-008", Technique::kBoundaryValues, Polarity::kViolation);
+    const double tolerated_s = static_cast<double>(kCommandLossesMax) * kFrameS;
+    const auto lose = [&](double duration_s) {
+        EXPECT_EQ(run(arguments("--frames 1600 --fault kind=message_lost,at=0.5,duration=" +
+                                std::to_string(duration_s))),
+                  0)
+            << messages_;
+        return read_summary();
+    };
+    EXPECT_EQ(lose(tolerated_s)["final_state"], "Operational");
+
+    const nlohmann::json lost = lose(tolerated_s + kFrameS);
+    EXPECT_EQ(lost["detected_fault"], "CommandStale");
+    EXPECT_EQ(lost["reaction"], "Ss1");
 }
 
 TEST_F(RunTest, ReleasedEmergencyStopNeedsResetAndStart) {

@@ -103,7 +103,7 @@ void SafetyCycle::decide(Instant now) noexcept {
     inputs.reset_button = machine.reset_button;
     inputs.faults_cleared = state_.faults_.get_latched_count() == 0U;
     inputs.brakes_failed = have_brakes_failed(machine, before, now);
-    inputs.start_permitted = machine.may_start && is_watchdog_serviced_;
+    inputs.start_permitted = machine.may_start && is_watchdog_serviced_ && are_connections_fresh(now);
     inputs.lock_out = is_sto_unconfirmed(machine.has_torque, now);
     const SafeState state = state_.machine_.step(inputs);
     state_.flow_.report(FlowPoint::kJudged, now);
@@ -217,6 +217,25 @@ bool SafetyCycle::has_failed_test(FaultIndex fault) const noexcept {
     return result;
 }
 
+/// A connection is needed while the machine moves as others command. The controlled stops do without.
+bool SafetyCycle::has_lost_connection(FaultIndex fault, Instant now) const noexcept {
+    const SafeState state = state_.machine_.get_state();
+    const bool is_needed = state == SafeState::kOperational || state == SafeState::kDegraded;
+    bool result = false;
+    for (const ProtectRow& row : state_.table_.protections) {
+        result = result || (is_needed && row.fault == fault && !row.receiver->is_fresh(now, row.limit));
+    }
+    return result;
+}
+
+bool SafetyCycle::are_connections_fresh(Instant now) const noexcept {
+    bool result = true;
+    for (const ProtectRow& row : state_.table_.protections) {
+        result = result && row.receiver->is_fresh(now, row.limit);
+    }
+    return result;
+}
+
 void SafetyCycle::report_faults(SelfTestStatus self_test, Instant now) noexcept {
     for (std::size_t i = 0U; i < state_.faults_.get_capacity(); ++i) {
         const auto fault = static_cast<FaultIndex>(i);
@@ -236,7 +255,7 @@ bool SafetyCycle::find_presence(FaultIndex fault, SelfTestStatus self_test, Inst
     result = result || (fault == state_.table_.cycle.self_test_fault && self_test == SelfTestStatus::kFailed);
     result = result || (fault == state_.table_.cycle.late_fault && is_reaction_late_);
     result = result || (fault == state_.table_.cycle.brake_fault && state_.brakes_.is_overdue(now));
-    result = result || (is_test_failed_ && has_failed_test(fault));
+    result = result || (is_test_failed_ && has_failed_test(fault)) || has_lost_connection(fault, now);
     for (const SuperviseRow& row : state_.table_.supervised) {
         if (row.fault == fault && is_expired(row)) {
             result = true;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "mamori/safety/cycle/safety_rules.hpp"
+#include "mamori/safety/e2e/stamped.hpp"
 
 namespace {
 
@@ -36,6 +37,43 @@ Check check;
 Check& second_check = check;
 #else
 Check second_check;
+#endif
+
+class Receiver : public mamori::Component, public ProtectedReceiver {
+  public:
+#ifdef MAMORI_DEFECT_PROTECTED_UNSTAMPED
+    using Value = double;
+#else
+    using Value = Stamped<double>;
+#endif
+    static constexpr std::uint8_t kProfile = 4U;
+#ifdef MAMORI_DEFECT_PROTECTED_LOSSES
+    static constexpr std::uint32_t kMaxDelta = 4U;
+#else
+    static constexpr std::uint32_t kMaxDelta = 3U;
+#endif
+    constexpr explicit Receiver(const char* name) noexcept : Component(name) {}
+};
+class OtherReceiver final : public Receiver {
+  public:
+    using Receiver::Receiver;
+};
+Receiver receiver{"receiver"};
+OtherReceiver other_receiver{"other"};
+Receiver strange_receiver{"strange"};
+#if defined(MAMORI_DEFECT_PROTECTED_TWICE)
+Receiver& protected_receiver = receiver;
+#elif defined(MAMORI_DEFECT_PROTECTED_STRANGER)
+Receiver& protected_receiver = strange_receiver;
+#else
+OtherReceiver& protected_receiver = other_receiver;
+#endif
+#if defined(MAMORI_DEFECT_PROTECTED_TOO_YOUNG)
+constexpr auto kFresh = mamori::fresh_within(1_ms - 1_ns);
+#elif defined(MAMORI_DEFECT_PROTECTED_LEAD)
+constexpr auto kFresh = mamori::fresh_within(1_ms, mamori::Duration{-1});
+#else
+constexpr auto kFresh = mamori::fresh_within(3_ms);
 #endif
 
 enum class Entity { kReader, kOther, kUnknown };
@@ -186,17 +224,29 @@ constexpr auto kSystem = mamori::safety::system(
     mamori::frame(1_ms),
 #if defined(MAMORI_DEFECT_OTHER_CORE)
     mamori::window("read", 0_us, 1_ms, mamori::core(1U), mamori::budget(1_ms), mamori::run(reader)),
-    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(decider)), kFaults,
+    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(decider, receiver, other_receiver)),
+    kFaults,
 #elif defined(MAMORI_DEFECT_TWO_DECIDERS)
-    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(reader, decider, second_decider)),
+    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms),
+                   mamori::run(reader, decider, second_decider, receiver, other_receiver)),
     kFaults,
 #elif defined(MAMORI_DEFECT_NO_MODE)
-    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(reader, decider)),
+    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms),
+                   mamori::run(reader, decider, receiver, other_receiver)),
     mamori::safe_mode("halt", mamori::runs(decider)), kFaults,
 #elif defined(MAMORI_DEFECT_SOURCE_LATER)
-    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(decider, reader)), kFaults,
+    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms),
+                   mamori::run(decider, reader, receiver, other_receiver)),
+    kFaults,
+#elif defined(MAMORI_DEFECT_PROTECTED_OTHER_CORE)
+    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(reader, decider, receiver)),
+    mamori::window("receive", 0_us, 1_ms, mamori::core(1U), mamori::budget(1_ms),
+                   mamori::run(other_receiver)),
+    kFaults,
 #else
-    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms), mamori::run(reader, decider)), kFaults,
+    mamori::window("all", 0_us, 1_ms, mamori::budget(1_ms),
+                   mamori::run(reader, decider, receiver, other_receiver)),
+    kFaults,
 #endif
 #if defined(MAMORI_DEFECT_SOURCE_LATER)
     mamori::connect(reader.seen, decider.seen, mamori::any_age(), mamori::delayed_by_a_frame()),
@@ -274,6 +324,16 @@ constexpr auto kSystem = mamori::safety::system(
     confirm(Fault::kFast, {2U}, {3U}),
 #endif
     self_test(check, found_within(2_ms), raises(Fault::kSelfTest)),
+    protect(receiver, mamori::fresh_within(4_ms), raises(Fault::kSilent)),
+#if defined(MAMORI_DEFECT_PROTECTED_OTHER_FAULT)
+    protect(protected_receiver, kFresh, raises(OtherFault::kFast)),
+#elif defined(MAMORI_DEFECT_PROTECTED_FAULT)
+    protect(protected_receiver, kFresh, raises(Fault::kUndeclared)),
+#elif defined(MAMORI_DEFECT_PROTECTED_UNANSWERED)
+    protect(protected_receiver, kFresh),
+#else
+    protect(protected_receiver, kFresh, raises(Fault::kFast)),
+#endif
 #if defined(MAMORI_DEFECT_TESTED_OTHER_FAULT)
     self_test(second_check, found_within(2_ms), raises(OtherFault::kFast)),
 #elif defined(MAMORI_DEFECT_TESTED_FAULT)

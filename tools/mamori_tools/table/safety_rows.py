@@ -52,6 +52,18 @@ class RepeatedTest:
 
 
 @dataclass(frozen=True)
+class Protection:
+    component: int | None
+    """The receiver."""
+    profile: int
+    fresh_within_ns: int
+    lead_ns: int
+    max_delta: int | None
+    """Largest accepted step of the counter; None: stated at run time."""
+    fault: int | None
+
+
+@dataclass(frozen=True)
 class Cycle:
     ss2_within_ns: int
     ss1_within_ns: int
@@ -75,6 +87,7 @@ class Safety:
     confirmations: tuple[FaultConfirmation, ...]
     stop_sources: tuple[StopSource, ...]
     self_tests: tuple[RepeatedTest, ...]
+    protections: tuple[Protection, ...]
 
 
 def read_safety(node: JsonNode, component_count: int) -> Safety | None:
@@ -85,6 +98,8 @@ def read_safety(node: JsonNode, component_count: int) -> Safety | None:
         cycle=_read_cycle(node.at("cycle")),
         supervised=tuple(Supervised(**_read_numbers(row, Supervised), component=row.at("component").index_or_none(component_count))
                          for row in node.at("supervised").items()),
+        protections=tuple(Protection(**_read_numbers(row, Protection), component=row.at("component").index_or_none(component_count),
+                                     max_delta=row.at("max_delta").whole_or_none()) for row in node.at("protections").items()),
         confirmations=tuple(FaultConfirmation(**_read_numbers(row, FaultConfirmation)) for row in node.at("confirmations").items()),
         stop_sources=tuple(StopSource(row.at("component").index_or_none(component_count), row.at("port").text(),
                                       tuple(item.text(CONFIRMATIONS) for item in row.at("confirms").items()))

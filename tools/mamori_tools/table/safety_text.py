@@ -34,6 +34,10 @@ def make_safety_sections(table: Table) -> Iterator[Section]:
     yield "confirmations of stops", [("confirmation", "source"), *sources]
     tests = [(f"{number}", format_time(row.found_within_ns), name_fault(table, row.fault)) for number, row in enumerate(safety.self_tests)]
     yield "repeated self tests", [("self test", "found within", "fault"), *tests]
+    protections = [(table.component_name(row.component), f"profile {row.profile}", format_time(row.fresh_within_ns),
+                    format_time(row.lead_ns) if row.lead_ns else "", "" if row.max_delta is None else str(row.max_delta - 1),
+                    name_fault(table, row.fault)) for row in safety.protections]  # fmt: skip
+    yield "protected connections", [("receiver", "E2E", "fresh within", "lead", "losses in a row", "fault"), *protections]
     yield "safety cycle", [("setting", "value"), *_make_settings(table, safety)]
 
 
@@ -75,6 +79,7 @@ def make_fault_cells(table: Table, fault: int) -> Row:
 def _list_causes(table: Table, safety: Safety, fault: int) -> list[str]:
     cycle = safety.cycle
     causes = [table.component_name(row.component) for row in safety.supervised if row.fault == fault]
+    causes += [f"loss at {table.component_name(row.component)}" for row in safety.protections if row.fault == fault]
     causes += [f"self test {number}" for number, row in enumerate(safety.self_tests) if row.fault == fault]
     named = ((cycle.late_reaction_fault, "late reaction"), (cycle.self_test_fault, "failed self test"),
              (cycle.unconfirmed_brakes_fault, "unconfirmed brakes"))  # fmt: skip

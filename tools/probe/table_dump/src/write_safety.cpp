@@ -88,6 +88,15 @@ std::string make_self_test(const SelfTestRow& row) {
         {{"found_within_ns", format_ns(row.found_within)}, {"fault", format_fault(row.fault)}});
 }
 
+std::string make_protection(const SystemView& view, const ProtectRow& row) {
+    return make_object({{"component", format_component(view, row.component)},
+                        {"profile", std::to_string(row.profile)},
+                        {"fresh_within_ns", format_ns(row.limit.age_max)},
+                        {"lead_ns", format_ns(row.limit.lead_max)},
+                        {"max_delta", row.max_delta == 0U ? "null" : std::to_string(row.max_delta)},
+                        {"fault", format_fault(row.fault)}});
+}
+
 std::string make_cycle(const CycleRow& row) {
     const auto make_fault = [&](std::size_t fault) -> std::string {
         return ((row.brakes_first >> fault) & 1U) != 0U ? std::to_string(fault) : "";
@@ -122,6 +131,8 @@ void write_safety(std::ostream& out, const SystemView& view, const SafetyView* s
                      [&](std::size_t i) { return make_stop_source(view, safety->stop_sources[i]); });
     json::write_rows(out, "self_tests", safety->self_tests.size(),
                      [&](std::size_t i) { return make_self_test(safety->self_tests[i]); });
+    json::write_rows(out, "protections", safety->protections.size(),
+                     [&](std::size_t i) { return make_protection(view, safety->protections[i]); });
     out << "\n }";
 }
 

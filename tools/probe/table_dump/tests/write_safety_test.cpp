@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "mamori/safety/cycle/safety_rules.hpp"
+#include "mamori/safety/e2e/stamped.hpp"
 #include "mamori/table_dump/fault_names.hpp"
 #include "mamori/table_dump/table_dump.hpp"
 #include "mamori/trace/verifies.hpp"
@@ -33,6 +34,13 @@ class Decider final : public Component, public safety::CycleComponent {
     InPort<double> seen{*this, "seen"};
     using Ports = mamori::Ports<&Decider::seen>;
 };
+class Receiver final : public Component, public safety::ProtectedReceiver {
+  public:
+    using Value = safety::Stamped<double>;
+    static constexpr std::uint8_t kProfile = 44U;
+    static constexpr std::uint32_t kMaxDelta = 3U;
+    constexpr explicit Receiver(const char* name) noexcept : Component(name) {}
+};
 class NoTest final : public safety::SelfTest {
   public:
     void begin() noexcept override {}
@@ -53,6 +61,7 @@ constexpr safety::SupervisionTable kCheckpoints{kEntities, kPoints, kAlives, {},
 Sensor g_sensor{"sensor"};
 Decider g_decider{"decider"};
 NoTest g_test;
+Receiver g_receiver{"receiver"};
 safety::ExpiryStorage g_expiry;
 safety::ExpiryMemory g_memory{g_expiry};
 safety::SupervisionStorage<kCheckpoints> g_storage;
@@ -60,7 +69,7 @@ safety::CheckpointSupervisor g_supervisor{g_storage, g_memory};
 
 constexpr auto kFaults = parts(faults<Alarm::kFast, Alarm::kSilent, Alarm::kTest, Alarm::k2Late>());
 constexpr auto kSystem = safety::system(
-    frame(1_ms), kFaults, window("all", 0_us, 900_us, budget(900_us), run(g_sensor, g_decider)),
+    frame(1_ms), kFaults, window("all", 0_us, 900_us, budget(900_us), run(g_sensor, g_decider, g_receiver)),
     connect(g_sensor.seen, g_decider.seen, any_age()),
     react(Alarm::kFast, safety::Reaction::kSto, within(2_ms)),
     react(Alarm::kSilent, safety::Reaction::kSs1, within(3_ms)),
@@ -75,6 +84,7 @@ constexpr auto kSystem = safety::system(
                          safety::StopConfirmation::kTorqueOff),
     safety::confirmed_by(g_sensor.seen, safety::StopConfirmation::kClosedBrakes),
     safety::self_test(g_test, safety::found_within(10_s), safety::raises(Alarm::kTest)),
+    safety::protect(g_receiver, fresh_within(4_ms, 1_us), safety::raises(Alarm::kSilent)),
     safety::cycle(safety::StopBounds{20_ms, 30_ms}, safety::BrakeLimits{10_ms, true},
                   safety::WatchdogWindow{500_us, 4_ms}, safety::torque_feedback(5_ms),
                   safety::tolerated_lateness(50_us), safety::on_late_reaction(safety::raises(Alarm::k2Late)),
@@ -110,7 +120,9 @@ TEST(WriteSafetyTest, EachRowOfTheSafetyLayerIsWritten) {
                            "healing_ns": 7000000}],
         "stop_sources": [{"component": 0, "port": "seen", "confirms": ["standstill", "torque_off"]},
                          {"component": 0, "port": "seen", "confirms": ["closed_brakes"]}],
-        "self_tests": [{"found_within_ns": 10000000000, "fault": 2}]})"));
+        "self_tests": [{"found_within_ns": 10000000000, "fault": 2}],
+        "protections": [{"component": 2, "profile": 44, "fresh_within_ns": 4000000, "lead_ns": 1000,
+                         "max_delta": 3, "fault": 1}]})"));
 }
 
 TEST(WriteSafetyTest, ATableOfTheKernelAloneHasNone) {
@@ -122,8 +134,9 @@ TEST(WriteSafetyTest, RowsThatNameNothingAreShownAsSuch) {
     verifies("SWR-CYC-032", Technique::kErrorGuessing, Polarity::kViolation);
     const std::array<safety::SuperviseRow, 1U> supervised{};
     const std::array<safety::StopSourceRow, 1U> sources{};
+    const std::array<safety::ProtectRow, 1U> protections{};
     const safety::CycleRow cycle{};
-    const safety::SafetyView rows{supervised, {}, sources, {}, cycle};
+    const safety::SafetyView rows{supervised, {}, sources, {}, protections, cycle};
 
     const json table = dump(SystemView{}, &rows)["safety"];
 
@@ -132,6 +145,8 @@ TEST(WriteSafetyTest, RowsThatNameNothingAreShownAsSuch) {
     EXPECT_TRUE(table["stop_sources"][0]["component"].is_null());
     EXPECT_EQ(table["stop_sources"][0]["port"], "?");
     EXPECT_TRUE(table["cycle"]["late_reaction_fault"].is_null());
+    EXPECT_TRUE(table["protections"][0]["component"].is_null());
+    EXPECT_TRUE(table["protections"][0]["max_delta"].is_null());
     EXPECT_EQ(table["self_tests"], json::array());
 }
 

@@ -6,7 +6,7 @@
 ///
 /// @satisfies SWR-CYC-003, SWR-CYC-004, SWR-CYC-005, SWR-CYC-006, SWR-CYC-007, SWR-CYC-008, SWR-CYC-009
 /// @satisfies SWR-CYC-010, SWR-CYC-013, SWR-CYC-014, SWR-CYC-020, SWR-CYC-021, SWR-CYC-022, SWR-CYC-030
-/// @satisfies SWR-CYC-031, SWR-CYC-037
+/// @satisfies SWR-CYC-031, SWR-CYC-034, SWR-CYC-037
 /// Design:   docs/design/safety_cycle.md#order
 #ifndef MAMORI_SAFETY_SAFETY_CYCLE_HPP
 #define MAMORI_SAFETY_SAFETY_CYCLE_HPP
@@ -119,6 +119,8 @@ class SafetyCycle : public Component, public CycleComponent {
     SelfTestStatus check_assumptions(Instant now) noexcept;
     SelfTestStatus repeat_self_tests(Instant now) noexcept;
     bool has_failed_test(FaultIndex fault) const noexcept;
+    bool has_lost_connection(FaultIndex fault, Instant now) const noexcept;
+    bool are_connections_fresh(Instant now) const noexcept;
     void report_faults(SelfTestStatus self_test, Instant now) noexcept;
     bool find_presence(FaultIndex fault, SelfTestStatus self_test, Instant now) noexcept;
     void record_expiries(Instant now) noexcept;

@@ -51,6 +51,12 @@ enum class SafetyRule : std::uint8_t {
     kTestedFaultDeclared,     ///< self_test
     kTestedOnce,              ///< self_test
     kTestHasSteps,            ///< self_test
+    kProtectedInTable,        ///< protect
+    kProtectedOnce,           ///< protect
+    kProtectedFaultDeclared,  ///< protect
+    kProtectedReachable,      ///< protect
+    kProtectedLossesInTime,   ///< protect
+    kProtectedOnCore,         ///< protect
 };
 
 /// The first violated rule; kNone when there is none.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Parts of a description that only mamori::safety::system(...) has: supervision of components, confirmation
-/// of faults and stops, repeated self tests, bounds of stops, brakes and watchdog.
+/// of faults and stops, repeated self tests, protected connections, bounds of stops, brakes and watchdog.
 ///
-/// @satisfies SWR-CYC-001, SWR-CYC-012, SWR-CYC-014, SWR-CYC-023
+/// @satisfies SWR-CYC-001, SWR-CYC-012, SWR-CYC-014, SWR-CYC-023, SWR-CYC-034
 /// Design:   docs/design/safety_cycle.md#the-table
 #ifndef MAMORI_SAFETY_SAFETY_PART_HPP
 #define MAMORI_SAFETY_SAFETY_PART_HPP
@@ -15,7 +15,9 @@
 
 #include "mamori/kernel/component/component.hpp"
 #include "mamori/kernel/dataflow/data_port.hpp"
+#include "mamori/kernel/system/connection_option.hpp"
 #include "mamori/kernel/system/system_extension.hpp"
+#include "mamori/safety/e2e/protected_receiver.hpp"
 #include "mamori/safety/reaction/brake_sequence.hpp"
 #include "mamori/safety/reaction/fault_register.hpp"
 #include "mamori/safety/reaction/safe_state_machine.hpp"
@@ -68,6 +70,15 @@ struct StopSourceRow {
 struct SelfTestRow {
     SelfTest* check{nullptr};
     Duration found_within{0};  ///< two passes end within it
+    FaultIndex fault{kNoFault};
+};
+/// A protected connection, and the fault of its loss.
+struct ProtectRow {
+    const ProtectedReceiver* receiver{nullptr};
+    const Component* component{nullptr};  ///< the receiver
+    FreshWithin limit{};                  ///< of the message that was accepted last
+    std::uint32_t max_delta{0U};          ///< largest accepted step of the counter; 0: no constant
+    std::uint8_t profile{0U};             ///< number of the E2E profile
     FaultIndex fault{kNoFault};
 };
 /// Settings of the safety cycle that a table states once.
@@ -132,6 +143,7 @@ struct SuperviseTag {};
 struct ConfirmTag {};
 struct StopSourceTag {};
 struct SelfTestTag {};
+struct ProtectTag {};
 struct CycleTag {};
 
 /// Made by supervise().
@@ -222,6 +234,32 @@ template <typename Fault>
 constexpr SelfTestPart<Fault> self_test(SelfTest&, Raises<Fault>) noexcept {
     static_assert(!std::is_enum_v<Fault>,
                   "a self_test(...) states found_within(...), the time for its steps");
+    return {};
+}
+
+/// Made by protect().
+template <typename Fault>
+struct ProtectPart {
+    using Types = extension::ExtensionTypes<ProtectTag, Fault>;
+    ProtectRow row{};
+};
+/// A connection that end-to-end protection checks. While the last accepted message is older than the limit,
+/// the machine does not start, and its fault is present while the machine is Operational or Degraded.
+/// @param[in] receiver E2eReceiver or another ProtectedReceiver of messages with a member `sent_at_ns`; must
+///                     outlive the table.
+/// @param[in] limit    fresh_within(...). @param[in] fault raises(...).
+template <typename Receiver, typename Fault>
+constexpr ProtectPart<Fault> protect(const Receiver& receiver, FreshWithin limit,
+                                     Raises<Fault> fault) noexcept {
+    static_assert(detail::kHasSendTime<typename Receiver::Value>,
+                  "a protected message states sent_at_ns, from which its age counts; use Stamped<...>");
+    return {{&receiver, &receiver, limit, Receiver::kMaxDelta, Receiver::kProfile,
+             detail::to_fault(fault.fault)}};
+}
+/// Without a fault, a loss has no reaction: this does not compile.
+template <typename Receiver>
+constexpr ProtectPart<void> protect(const Receiver&, FreshWithin) noexcept {
+    static_assert(std::is_void_v<Receiver>, "a protect(...) states raises(...), the fault of a loss");
     return {};
 }
 

@@ -14,6 +14,7 @@
 
 #include "mamori/kernel/system/system_extension.hpp"
 #include "mamori/safety/cycle/checkpoint_rules.hpp"
+#include "mamori/safety/cycle/protection_rules.hpp"
 #include "mamori/safety/cycle/safety_finding.hpp"
 #include "mamori/safety/cycle/stop_source_rules.hpp"
 #include "mamori/safety/cycle/system.hpp"
@@ -163,6 +164,7 @@ constexpr SafetyFinding check_safety(const Table& table) noexcept {
     finding = finding.rule == SafetyRule::kNone ? check_checkpoints(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_confirmations(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_self_tests(table) : finding;
+    finding = finding.rule == SafetyRule::kNone ? check_protections(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_cycle(table) : finding;
     return finding.rule == SafetyRule::kNone ? check_stop_sources(table) : finding;
 }
@@ -194,6 +196,12 @@ constexpr SafetyFinding check_cycle_window(const Table& table, std::size_t windo
         const std::size_t index = find_component(table.components, table.supervised[i].watch.component);
         if (table.windows[table.component_rows[index].window].core != table.windows[window].core) {
             return {SafetyRule::kSupervisedOnCore, i};
+        }
+    }
+    for (std::size_t i = 0U; i < table.protections.size(); ++i) {
+        const std::size_t index = find_component(table.components, table.protections[i].component);
+        if (table.windows[table.component_rows[index].window].core != table.windows[window].core) {
+            return {SafetyRule::kProtectedOnCore, i};
         }
     }
     for (std::size_t i = 0U; i < table.self_tests.size(); ++i) {
@@ -316,6 +324,20 @@ struct SafetyTableIsSound : std::true_type {
     static_assert(kRule != SafetyRule::kTestedOnce, "a check has two self_test(...); keep one");
     static_assert(kRule != SafetyRule::kTestHasSteps,
                   "found_within(...) is at least two periods of the safety cycle, or the check has no step");
+    static_assert(kRule != SafetyRule::kProtectedInTable,
+                  "protect(...) names a receiver that no window of the table runs; remove it");
+    static_assert(kRule != SafetyRule::kProtectedOnce, "a receiver has two protect(...); keep one");
+    static_assert(kRule != SafetyRule::kProtectedFaultDeclared,
+                  "protect(...) raises a fault that faults<...>() does not declare");
+    static_assert(kRule != SafetyRule::kProtectedReachable,
+                  "fresh_within(...) of protect(...) is at least the period of the receiver, and lead_max is "
+                  "not negative");
+    static_assert(
+        kRule != SafetyRule::kProtectedLossesInTime,
+        "the receiver accepts a gap of more messages than fit into fresh_within(...) of protect(...); "
+        "lower max_delta");
+    static_assert(kRule != SafetyRule::kProtectedOnCore,
+                  "the receiver of protect(...) runs on the core and in the class of the safety cycle");
 };
 
 namespace detail {
@@ -336,6 +358,9 @@ constexpr auto show_faulty() noexcept {
         return Shown<extension::ComponentAt<kTable, kIndex>>{};
     } else if constexpr (kRule >= SafetyRule::kSourceSupervised && kRule <= SafetyRule::kSourceBeforeCycle) {
         return Shown<extension::ComponentAt<kTable, find_owner(kTable, kTable.stop_sources[kRow].port)>>{};
+    } else if constexpr (kRule >= SafetyRule::kProtectedOnce && kRule <= SafetyRule::kProtectedOnCore) {
+        constexpr std::size_t kIndex = find_component(kTable.components, kTable.protections[kRow].component);
+        return Shown<extension::ComponentAt<kTable, kIndex>>{};
     } else if constexpr (kRule == SafetyRule::kStopConfirmed) {
         return Shown<Unconfirmed<static_cast<StopConfirmation>(kRow)>>{};
     } else if constexpr (kRule == SafetyRule::kConfirmedOnce || kRule == SafetyRule::kConfirmationInRange) {

@@ -38,6 +38,7 @@ struct SafetySystem : DescribedSystem<PartTypes> {
     std::array<ConfirmRow, extension::kPartCount<ConfirmTag, PartTypes>> confirmations{};
     std::array<StopSourceRow, extension::kPartCount<StopSourceTag, PartTypes>> stop_sources{};
     std::array<SelfTestRow, extension::kPartCount<SelfTestTag, PartTypes>> self_tests{};
+    std::array<ProtectRow, extension::kPartCount<ProtectTag, PartTypes>> protections{};
     CycleRow cycle{};
 };
 
@@ -47,12 +48,14 @@ struct SafetyView {
     Span<const ConfirmRow> confirmations{};
     Span<const StopSourceRow> stop_sources{};
     Span<const SelfTestRow> self_tests{};
+    Span<const ProtectRow> protections{};
     const CycleRow& cycle;
 };
 /// @param[in] table must outlive the result.
 template <typename Types>
 constexpr SafetyView make_safety_view(const SafetySystem<Types>& table) noexcept {
-    return {table.supervised, table.confirmations, table.stop_sources, table.self_tests, table.cycle};
+    return {table.supervised, table.confirmations, table.stop_sources,
+            table.self_tests, table.protections,   table.cycle};
 }
 
 template <typename Types, typename... Faults>
@@ -91,6 +94,15 @@ constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
         next += row.check != nullptr ? 1U : 0U;
     }
     builder.table.self_tests[next] = part.row;
+}
+template <typename Types, typename Fault>
+constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
+                        const ProtectPart<Fault>& part) noexcept {
+    std::size_t next = 0U;
+    for (const ProtectRow& row : builder.table.protections) {
+        next += row.receiver != nullptr ? 1U : 0U;
+    }
+    builder.table.protections[next] = part.row;
 }
 template <typename Types, typename... Faults>
 constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,

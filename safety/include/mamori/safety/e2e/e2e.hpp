@@ -15,6 +15,7 @@
 #include "mamori/safety/e2e/profile_02.hpp"
 #include "mamori/safety/e2e/profile_04.hpp"
 #include "mamori/safety/e2e/profile_05.hpp"
+#include "mamori/safety/e2e/protected_link.hpp"
 #include "mamori/safety/e2e/protector.hpp"
 #include "mamori/safety/e2e/state_machine.hpp"
 

@@ -19,6 +19,7 @@
 #include "mamori/ports/lcm/protected_message.hpp"
 #include "mamori/safety/e2e/checker.hpp"
 #include "mamori/safety/e2e/hardened_sequence.hpp"
+#include "mamori/safety/e2e/protected_receiver.hpp"
 #include "mamori/safety/e2e/protector.hpp"
 
 namespace mamori::ports::lcm {
@@ -92,14 +93,18 @@ class LinkSender final : public Component {
 /// Thread safety: none; runs in its window. Time: O(size of kDepth messages), no system call.
 /// Memory: one value.
 template <typename Message, typename Queue>
-class LinkReceiver final : public Component {
+class LinkReceiver final : public Component, public safety::ProtectedReceiver {
   public:
+    using Value = typename Message::Value;
+    static constexpr std::uint8_t kProfile = Message::Profile::kNumber;
+    static constexpr std::uint32_t kMaxDelta = 0U;  ///< stated at run time
+
     /// @param[in] queue  of the transport; must have static storage.
     /// @param[in] limits of HardenedSequence, which never accepts an older message.
     constexpr LinkReceiver(const char* name, Queue& queue, const safety::HardenedLimits& limits) noexcept
         : Component(name), queue_(queue), checker_(Message::kChannel, limits) {}
 
-    OutPort<typename Message::Value> out{*this, "out"};
+    OutPort<Value> out{*this, "out"};
     OutPort<LinkNews> news{*this, "news"};
     using Ports = mamori::Ports<&LinkReceiver::out, &LinkReceiver::news>;
 
@@ -174,13 +179,14 @@ class LinkReceiver final : public Component {
             state_.damaged = add(state_.damaged, 1U);
             return false;
         }
+        record_accepted(value_);
         state_.used = add(state_.used, 1U);
         return true;
     }
 
     Queue& queue_;
     safety::HardenedE2eChecker<typename Message::Profile> checker_;
-    typename Message::Value value_{};
+    Value value_{};
     LinkNews state_{};
 };
 
