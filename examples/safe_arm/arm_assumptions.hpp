@@ -7,12 +7,9 @@
 #ifndef EXAMPLES_SAFE_ARM_ARM_ASSUMPTIONS_HPP
 #define EXAMPLES_SAFE_ARM_ARM_ASSUMPTIONS_HPP
 
-#include <array>
-
 #include "arm_limits.hpp"
 #include "mamori/ports/virtual_time/virtual_watchdog.hpp"
 #include "mamori/safety/assumptions/assumption_checks.hpp"
-#include "mamori/safety/assumptions/assumption_monitor.hpp"
 #include "mamori/safety/self_test/cpu_check.hpp"
 
 namespace safe_arm {
@@ -21,11 +18,7 @@ namespace safe_arm {
 enum class ArmAssumption : mamori::safety::AssumptionIndex {
     kWatchdog,   ///< it watches: without it a hung supervisor would leave the torque on
     kProcessor,  ///< operations and mode of the floating-point unit are those that the guards count on
-    kCount,      ///< number of assumptions
 };
-/// Spelling in logs, indexed by the number.
-inline constexpr std::array<const char*, static_cast<std::size_t>(ArmAssumption::kCount)> kArmAssumptionNames{
-    "watchdog", "processor"};
 
 /// The watchdog was served and has not opened its relay.
 class WatchdogArmed final : public mamori::safety::Provision {
@@ -53,12 +46,11 @@ struct ArmChecks {
     mamori::safety::SelfTestCheck processor{patterns};
 };
 
-/// The table of one program; prove it with checks_all().
+/// Rows of the table of one program.
 constexpr auto make_arm_assumptions(ArmChecks& checks) noexcept {
     using mamori::safety::assume;
-    return std::array{
-        assume(ArmAssumption::kWatchdog, kArmAssumptionNames[0], checks.watchdog, kSelfTestTime),
-        assume(ArmAssumption::kProcessor, kArmAssumptionNames[1], checks.processor, kSelfTestTime)};
+    return mamori::parts(assume(ArmAssumption::kWatchdog, "watchdog", checks.watchdog, kSelfTestTime),
+                         assume(ArmAssumption::kProcessor, "processor", checks.processor, kSelfTestTime));
 }
 
 }  // namespace safe_arm

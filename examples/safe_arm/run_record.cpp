@@ -61,7 +61,7 @@ std::string describe_argument(const mamori::Event& event) {
         case CycleEvent::kReactionBegun:
             return get_name(static_cast<Reaction>(event.argument));
         case CycleEvent::kAssumptionFailed:
-            return kArmAssumptionNames.at(static_cast<std::size_t>(event.argument));
+            return safety_state.get_table().assumptions[static_cast<std::size_t>(event.argument)].name;
         case CycleEvent::kComponentExpired:
             return mamori::safety::kExpiryCauseNames.at(static_cast<std::size_t>(event.argument));
         case CycleEvent::kWatchdogRefused:

@@ -43,8 +43,8 @@ std::string make_name_table() {
         faults[std::to_string(fault)] = get_fault_names()[fault];
     }
     Json assumptions = Json::object();
-    for (std::size_t assumption = 0U; assumption < kArmAssumptionNames.size(); ++assumption) {
-        assumptions[std::to_string(assumption)] = kArmAssumptionNames[assumption];
+    for (const mamori::safety::AssumptionRow& row : safety_state.get_table().assumptions) {
+        assumptions[std::to_string(row.assumption)] = row.name;
     }
     Json sources = {{"0", "supervisor"}};
     for (const mamori::Component* component : executive.get_view().components) {

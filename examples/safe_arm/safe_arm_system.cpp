@@ -25,9 +25,6 @@ mamori::EventLog event_log{event_storage};
 mamori::ports::virtual_time::VirtualWatchdog watchdog{kWatchdogTimeout};
 
 static ArmChecks checks{watchdog};
-static constexpr std::array kAssumptions = make_arm_assumptions(checks);
-static_assert(mamori::safety::checks_all<kAssumptions, ArmAssumption::kCount>());
-static mamori::safety::AssumptionMonitor assumptions{kAssumptions};
 extern ArmSelfCheck self_check;
 
 ArmReader reader{inputs};
@@ -40,7 +37,7 @@ CommandReceiver command_receiver{"command_receiver"};
 DriveGate gate{outputs};
 
 static constexpr auto kSafeArm = mamori::safety::system(
-    mamori::frame(kFrame), mamori::trace_hash(), make_arm_safety(kLatenessMax),
+    mamori::frame(kFrame), mamori::trace_hash(), make_arm_safety(kLatenessMax), make_arm_assumptions(checks),
     make_arm_self_check(self_check),
     make_arm_modes(reader, monitor, supervisor, controller, command_sender, channel, command_receiver, gate),
     supervise(reader, alive(), deadline(kSafetyComponentMax)),
@@ -80,7 +77,7 @@ MAMORI_SAFETY_CHECK(kSafeArm);
 
 ArmSelfCheck self_check{kSafeArm, inputs};
 static mamori::safety::SafetyStorage<kSafeArm> safety_storage;
-mamori::safety::SafetyState safety_state{safety_storage, watchdog, &assumptions};
+mamori::safety::SafetyState safety_state{safety_storage, watchdog};
 constexpr std::size_t kFirstWindow = mamori::index_of(kSafeArm, "protect");
 constexpr std::size_t kLastWindow = mamori::index_of(kSafeArm, "act");
 

@@ -84,7 +84,7 @@ TEST_F(FailedBrakesTest, AMachineThatCannotBeHeldOrMovesLosesItsTorqueAtTheBound
     for (const bool can_hold : {false, true}) {
         const bool is_standing = !can_hold;
         SafetyStorage<kSystem> storage;
-        SafetyState state{storage, watchdog_, nullptr};
+        SafetyState state{storage, watchdog_};
         FakeMachine machine{state, nullptr};
         ASSERT_EQ(machine.initialize(), Status::kOk);
         Instant now{};

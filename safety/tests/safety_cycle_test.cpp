@@ -84,6 +84,7 @@ TEST_F(SafetyCycleTest, EventsAreWrittenOnceAndOnlyToALog) {
     }
     EXPECT_EQ(failed, 1U);
 
+    g_check.answer = SelfTestStatus::kPassed;
     SafetyStorage<kSystem> storage;
     SafetyState state{storage, watchdog_};
     FakeMachine silent{state, nullptr};
@@ -262,6 +263,18 @@ TEST_F(SafetyCycleTest, AFailedSelfTestOrAssumptionIsItsFault) {
     step();
     EXPECT_EQ(step(), SafeState::kLockedOut);
     EXPECT_TRUE(is_latched(Fault::kSelfTest));
+}
+
+TEST_F(SafetyCycleTest, AnAssumptionOfTheTableIsCheckedInEachCycleAndHoldsTheMachineUntilItIsKnown) {
+    verifies("SWR-CYC-036");
+    g_check.answer = SelfTestStatus::kRunning;
+    g_check.calls = 0;
+    for (int i = 1; i <= 10; ++i) {
+        EXPECT_EQ(step(), SafeState::kSelfTest);
+        EXPECT_EQ(g_check.calls, i);
+    }
+    g_check.answer = SelfTestStatus::kPassed;
+    EXPECT_EQ(step(), SafeState::kStandby);
 }
 
 TEST_F(SafetyCycleTest, AnAssumptionThatIsLostInOperationLocksOut) {

@@ -162,6 +162,21 @@ constexpr Defect kSelfTestDefects[] = {
 INSTANTIATE_TEST_SUITE_P(EachDefect, SelfTestRowCompileTest, ::testing::ValuesIn(kSelfTestDefects),
                          [](const auto& one) { return std::string{one.param.macro}; });
 
+class AssumptionRowCompileTest : public ::testing::TestWithParam<Defect> {};
+
+TEST_P(AssumptionRowCompileTest, IsRejectedWithTheFaultyElement) {
+    verifies("SWR-CYC-036", Technique::kBoundaryValues, Polarity::kViolation);
+    expect_rejected(GetParam());
+}
+
+constexpr Defect kAssumptionDefects[] = {
+    {"ASSUMPTION_ORDER", "TableRow<0>", "names the enumerators 0, 1, ... of one enumeration"},
+    {"ASSUMPTION_TWICE", "TableRow<1>", "names the enumerators 0, 1, ... of one enumeration"},
+    {"ASSUMPTION_TIME", "TableRow<1>", "the time of assume(...) is positive"},
+};
+INSTANTIATE_TEST_SUITE_P(EachDefect, AssumptionRowCompileTest, ::testing::ValuesIn(kAssumptionDefects),
+                         [](const auto& one) { return std::string{one.param.macro}; });
+
 constexpr Defect kProtectDefects[] = {
     {"PROTECTED_UNANSWERED", "protect", "states raises(...), the fault of a loss"},
     {"PROTECTED_UNSTAMPED", "protect", "states sent_at_ns"},

@@ -27,6 +27,7 @@ SAFETY: dict[str, Any] = {
     "stop_sources": [{"component": 1, "port": "state", "confirms": ["standstill", "torque_off"]},
                      {"component": None, "port": "?", "confirms": ["closed_brakes"]}],
     "self_tests": [{"found_within_ns": 2_000 * MS, "fault": 3}, {"found_within_ns": 1_000 * MS, "fault": 9}],
+    "assumptions": [{"name": "watchdog", "within_ns": 300 * MS}],
     "protections": [{"component": 2, "profile": 4, "fresh_within_ns": 3 * MS, "lead_ns": 0, "max_delta": 3, "fault": 1},
                     {"component": 3, "profile": 44, "fresh_within_ns": 9 * MS, "lead_ns": 40 * US, "max_delta": None, "fault": 2}],
 }  # fmt: skip
@@ -80,6 +81,10 @@ def test_supervision_stops_self_tests_and_settings_are_shown(tmp_path: Path, cap
         "0 2 s F3 Test",
         "1 1 s F9 (not declared)",
         "",
+        "assumptions",
+        "assumption known within fault",
+        "watchdog 300 ms F3 Test",
+        "",
         "protected connections",
         "receiver E2E fresh within lead losses in a row fault",
         "controller profile 4 3 ms 2 F1 Silent",
@@ -104,7 +109,7 @@ def test_rows_that_a_table_does_not_have_are_not_shown(tmp_path: Path, capsys: p
     few = show(capsys, write(tmp_path, {"cycle": cycle, **{key: [] for key in SAFETY if key != "cycle"}}))
     none = show(capsys, write(tmp_path, None))
 
-    assert not {"supervision", "confirmations of stops", "repeated self tests", "protected connections"} & set(few)
+    assert not {"supervision", "confirmations of stops", "repeated self tests", "assumptions", "protected connections"} & set(few)
     assert {"brakes close within 100 ms, without contacts", "STO after closed brakes none"} <= set(few)
     assert "F1 Silent Sto 2 ms machine 1 cycle 1 cycle" in few
     assert "safety cycle" not in none
@@ -158,6 +163,7 @@ def _change(section: str, key: str, value: object) -> dict[str, Any]:
         (_change("supervised", "late_cycles", None), "safety.supervised[0].late_cycles must be an integer"),
         (_change("confirmations", "fault", 1.5), "safety.confirmations[0].fault must be an integer"),
         (_change("stop_sources", "confirms", ["standstil"]), "safety.stop_sources[0].confirms[0] is 'standstil'; nearest: standstill"),
+        (_change("assumptions", "name", None), "safety.assumptions[0].name must be a text"),
         (_change("protections", "max_delta", "2"), "safety.protections[0].max_delta must be an integer"),
         (_change("protections", "component", 4), "safety.protections[0].component is 4, beyond the 4 rows"),
         (_change("self_tests", "found_within_ns", "1 s"), "safety.self_tests[0].found_within_ns must be an integer"),

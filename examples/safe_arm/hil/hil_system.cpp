@@ -27,9 +27,6 @@ mamori::ports::virtual_time::VirtualWatchdog watchdog_mirror{kWatchdogTimeout};
 static LinkWatchdog watchdog{watchdog_mirror};
 
 static ArmChecks checks{watchdog_mirror};
-static constexpr std::array kAssumptions = make_arm_assumptions(checks);
-static_assert(mamori::safety::checks_all<kAssumptions, ArmAssumption::kCount>());
-static mamori::safety::AssumptionMonitor assumptions{kAssumptions};
 extern ArmSelfCheck self_check;
 
 DeviceQueue device_queue;
@@ -60,7 +57,7 @@ mamori::ports::lcm::LinkSender<DriveMessage> drive_sender{"drive_sender", drive_
 /// Budgets bound the times; here only silence counts, since a shared host can stretch a run.
 static constexpr auto kHilSystem = mamori::safety::system(
     mamori::frame(kFrame), mamori::trace_hash(), make_arm_safety(hil::kLatenessMax),
-    make_arm_self_check(self_check),
+    make_arm_assumptions(checks), make_arm_self_check(self_check),
     make_arm_modes(device_receiver, device_image, reader, filter, hang_point, monitor, supervisor, view,
                    state_sender, command_receiver, gate, encoder, drive_sender),
     supervise(reader, alive(), deadline(390_us)), supervise(filter, alive(), deadline(390_us)),
@@ -98,7 +95,7 @@ MAMORI_SAFETY_CHECK(kHilSystem);
 
 ArmSelfCheck self_check{kHilSystem, inputs};
 static mamori::safety::SafetyStorage<kHilSystem> safety_storage;
-mamori::safety::SafetyState safety_state{safety_storage, watchdog, &assumptions};
+mamori::safety::SafetyState safety_state{safety_storage, watchdog};
 
 using RealTimeMachine = mamori::ports::posix_rt::Machine<kHilSystem>;
 using VirtualMachine = mamori::ports::virtual_time::Machine<kHilSystem>;

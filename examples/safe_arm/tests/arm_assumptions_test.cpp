@@ -7,6 +7,8 @@
 #include <cfenv>
 #include <string>
 
+#include "mamori/safety/assumptions/assumption_monitor.hpp"
+#include "mamori/safety/cycle/system.hpp"
 #include "mamori/trace/verifies.hpp"
 
 namespace safe_arm {
@@ -19,16 +21,15 @@ using namespace mamori::verification;
 
 mamori::ports::virtual_time::VirtualWatchdog g_served{kWatchdogTimeout};
 ArmChecks g_sound{g_served};
-constexpr std::array kSound = make_arm_assumptions(g_sound);
-static_assert(mamori::safety::checks_all<kSound, ArmAssumption::kCount>());
+constexpr auto kSound = mamori::safety::system(mamori::frame(kFrame), make_arm_assumptions(g_sound));
 
 mamori::ports::virtual_time::VirtualWatchdog g_expired{kWatchdogTimeout};
 ArmChecks g_lost{g_expired};
-constexpr std::array kLost = make_arm_assumptions(g_lost);
+constexpr auto kLost = mamori::safety::system(mamori::frame(kFrame), make_arm_assumptions(g_lost));
 
 mamori::ports::virtual_time::VirtualWatchdog g_other{kWatchdogTimeout};
 ArmChecks g_rounding{g_other};
-constexpr std::array kRounding = make_arm_assumptions(g_rounding);
+constexpr auto kRounding = mamori::safety::system(mamori::frame(kFrame), make_arm_assumptions(g_rounding));
 
 /// @return answer of the last of `frames`.
 SelfTestStatus run(AssumptionMonitor& monitor, std::uint32_t frames) {
@@ -41,7 +42,7 @@ SelfTestStatus run(AssumptionMonitor& monitor, std::uint32_t frames) {
 
 TEST(ArmAssumptionsTest, MachineThatKeepsThemPassesBeforeTheSelfTestEnds) {
     verifies("SWR-SAF-021");
-    AssumptionMonitor sut{kSound};
+    AssumptionMonitor sut{kSound.assumptions};
     EXPECT_EQ(run(sut, kSelfTestFrames), SelfTestStatus::kRunning) << "the watchdog was not served yet";
 
     ASSERT_EQ(g_served.service(Instant{}), mamori::Status::kOk);
@@ -50,7 +51,7 @@ TEST(ArmAssumptionsTest, MachineThatKeepsThemPassesBeforeTheSelfTestEnds) {
 
 TEST(ArmAssumptionsTest, WatchdogThatHasOpenedItsRelayFailsAndIsNamed) {
     verifies("SWR-SAF-021", Technique::kFaultInjection, Polarity::kViolation);
-    AssumptionMonitor sut{kLost};
+    AssumptionMonitor sut{kLost.assumptions};
     ASSERT_EQ(g_expired.service(Instant{}), mamori::Status::kOk);
     ASSERT_EQ(run(sut, kSelfTestFrames), SelfTestStatus::kPassed);
 
@@ -62,7 +63,7 @@ TEST(ArmAssumptionsTest, WatchdogThatHasOpenedItsRelayFailsAndIsNamed) {
 
 TEST(ArmAssumptionsTest, ProcessorInAnotherModeFailsAndIsNamed) {
     verifies("SWR-SAF-021", Technique::kFaultInjection, Polarity::kViolation);
-    AssumptionMonitor sut{kRounding};
+    AssumptionMonitor sut{kRounding.assumptions};
     ASSERT_EQ(g_other.service(Instant{}), mamori::Status::kOk);
 
     ASSERT_EQ(std::fesetround(FE_UPWARD), 0);

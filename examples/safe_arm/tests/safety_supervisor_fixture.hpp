@@ -18,6 +18,16 @@ namespace safe_arm {
 // take that of an inline variable for one.
 namespace {
 
+/// An assumption of use whose check answers as the test says.
+class FakeCheck final : public mamori::safety::AssumptionCheck {
+  public:
+    mamori::safety::SelfTestStatus check() noexcept override { return answer; }
+    mamori::safety::SelfTestStatus answer{mamori::safety::SelfTestStatus::kPassed};
+};
+FakeCheck g_sound;
+FakeCheck g_check;
+enum class Assumption : mamori::safety::AssumptionIndex { kSound, kChecked };
+
 class Supervised final : public mamori::Component {
   public:
     constexpr explicit Supervised(const char* name) noexcept : Component(name) {}
@@ -41,6 +51,8 @@ InsteadOfCycle g_other{"other"};
 Supervised g_controller{"controller"};
 constexpr auto kSupervised = mamori::safety::system(
     mamori::frame(kFrame), make_arm_safety(kLatenessMax), make_arm_modes(g_measuring, g_other, g_controller),
+    mamori::safety::assume(Assumption::kSound, "sound", g_sound, kSelfTestTime),
+    mamori::safety::assume(Assumption::kChecked, "checked", g_check, kSelfTestTime),
     mamori::safety::supervise(g_other, mamori::safety::alive(),
                               mamori::safety::deadline(kSafetyComponentMax)),
     mamori::safety::supervise(g_controller, mamori::safety::alive(),
@@ -67,20 +79,6 @@ class SpyWatchdog final : public mamori::safety::Watchdog {
     int services{0};
     mamori::Status answer{mamori::Status::kOk};
 };
-
-/// An assumption of use whose check answers as the test says.
-class FakeCheck final : public mamori::safety::AssumptionCheck {
-  public:
-    mamori::safety::SelfTestStatus check() noexcept override { return answer; }
-    mamori::safety::SelfTestStatus answer{mamori::safety::SelfTestStatus::kPassed};
-};
-FakeCheck g_sound;
-FakeCheck g_check;
-enum class Assumption : mamori::safety::AssumptionIndex { kSound, kChecked, kCount };
-constexpr std::array kAssumptions{
-    mamori::safety::assume(Assumption::kSound, "sound", g_sound, kSelfTestTime),
-    mamori::safety::assume(Assumption::kChecked, "checked", g_check, kSelfTestTime)};
-static_assert(mamori::safety::checks_all<kAssumptions, Assumption::kCount>());
 
 class SafetySupervisorFixture : public ::testing::Test {
   protected:
@@ -156,8 +154,7 @@ class SafetySupervisorFixture : public ::testing::Test {
     std::array<mamori::Event, 32U> events_{};
     mamori::EventLog log_{events_};
     SpyWatchdog watchdog_;
-    mamori::safety::AssumptionMonitor assumptions_{kAssumptions};
-    mamori::safety::SafetyState safety_{storage_, watchdog_, &assumptions_};
+    mamori::safety::SafetyState safety_{storage_, watchdog_};
     mamori::safety::ExecutionSupervisor& supervision_ = safety_.get_observer();
     SafetySupervisor sut_{safety_, log_};
     JointReading reading_{};

@@ -80,9 +80,8 @@ TEST_F(SupervisorIntegrityTest, WatchdogIsNotServedOnceAStepCameOutOfItsOrder) {
          {mamori::safety::FlowPoint::kBegun, mamori::safety::FlowPoint::kJudged,
           mamori::safety::FlowPoint::kCommanded}) {
         SpyWatchdog watchdog;
-        mamori::safety::AssumptionMonitor assumptions{kAssumptions};
         mamori::safety::SafetyStorage<kSupervised> storage;
-        mamori::safety::SafetyState safety{storage, watchdog, &assumptions};
+        mamori::safety::SafetyState safety{storage, watchdog};
         SafetySupervisor sut{safety, log_};
         ASSERT_EQ(sut.initialize(), Status::kOk);
         ASSERT_EQ(sut.on_execute({0, now_}), Status::kOk);

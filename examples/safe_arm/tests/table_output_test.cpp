@@ -45,7 +45,7 @@ TEST(TableOutputTest, TheSafetyRowsAreWrittenAndTheNamesOfFaultsAreTheirEnumerat
     EXPECT_EQ(table["safety"]["cycle"]["ss1_within_ns"], kStopBounds.ss1_within.ns);
     EXPECT_EQ(get_fault_names().size(), kArmFaultCount);
     EXPECT_EQ(get_fault_names()[to_index(ArmFault::kReactionLate)], "ReactionLate");
-    EXPECT_EQ(get_fault_names().back(), "PositionDoubtful");
+    EXPECT_EQ(get_fault_names().back(), "RunReleased");
 }
 
 TEST(TableOutputTest, AFileThatCannotBeWrittenIsNamed) {

@@ -174,13 +174,13 @@ SelfTestStatus SafetyCycle::test(Instant now) noexcept {
 
 /// One that is lost while the machine moves fails the self test too, and that locks out.
 SelfTestStatus SafetyCycle::check_assumptions(Instant now) noexcept {
-    if (state_.assumptions_ == nullptr) {
-        return SelfTestStatus::kPassed;
-    }
-    const bool had_failed = state_.assumptions_->get_status() == SelfTestStatus::kFailed;
-    const SelfTestStatus status = state_.assumptions_->step(now);
-    if (status == SelfTestStatus::kFailed && !had_failed) {
-        write_event(now, Severity::kFault, CycleEvent::kAssumptionFailed, state_.assumptions_->get_failed());
+    auto status = SelfTestStatus::kPassed;
+    for (AssumptionMonitor& monitor : state_.assumptions_) {
+        const bool had_failed = monitor.get_status() == SelfTestStatus::kFailed;
+        status = monitor.step(now);
+        if (status == SelfTestStatus::kFailed && !had_failed) {
+            write_event(now, Severity::kFault, CycleEvent::kAssumptionFailed, monitor.get_failed());
+        }
     }
     return status;
 }

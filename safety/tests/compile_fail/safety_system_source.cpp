@@ -39,6 +39,12 @@ Check& second_check = check;
 Check second_check;
 #endif
 
+class FirstCheck final : public AssumptionCheck {
+  public:
+    SelfTestStatus check() noexcept override { return SelfTestStatus::kPassed; }
+};
+FirstCheck first_check;
+enum class Assumption { kFirst, kSecond };
 class Receiver : public mamori::Component, public ProtectedReceiver {
   public:
 #ifdef MAMORI_DEFECT_PROTECTED_UNSTAMPED
@@ -325,6 +331,18 @@ constexpr auto kSystem = mamori::safety::system(
 #endif
     self_test(check, found_within(2_ms), raises(Fault::kSelfTest)),
     protect(receiver, mamori::fresh_within(4_ms), raises(Fault::kSilent)),
+#ifdef MAMORI_DEFECT_ASSUMPTION_ORDER
+    assume(Assumption::kSecond, "second", first_check, 1_ns),
+#else
+    assume(Assumption::kFirst, "first", first_check, 1_ns),
+#endif
+#if defined(MAMORI_DEFECT_ASSUMPTION_TWICE)
+    assume(Assumption::kFirst, "first again", first_check, 1_ns),
+#elif defined(MAMORI_DEFECT_ASSUMPTION_TIME)
+    assume(Assumption::kSecond, "second", first_check, 0_ms),
+#else
+    assume(Assumption::kSecond, "second", first_check, 1_ns),
+#endif
 #if defined(MAMORI_DEFECT_PROTECTED_OTHER_FAULT)
     protect(protected_receiver, kFresh, raises(OtherFault::kFast)),
 #elif defined(MAMORI_DEFECT_PROTECTED_FAULT)

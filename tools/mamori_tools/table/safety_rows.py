@@ -64,6 +64,12 @@ class Protection:
 
 
 @dataclass(frozen=True)
+class Assumption:
+    name: str
+    within_ns: int
+
+
+@dataclass(frozen=True)
 class Cycle:
     ss2_within_ns: int
     ss1_within_ns: int
@@ -88,6 +94,7 @@ class Safety:
     stop_sources: tuple[StopSource, ...]
     self_tests: tuple[RepeatedTest, ...]
     protections: tuple[Protection, ...]
+    assumptions: tuple[Assumption, ...]
 
 
 def read_safety(node: JsonNode, component_count: int) -> Safety | None:
@@ -100,6 +107,7 @@ def read_safety(node: JsonNode, component_count: int) -> Safety | None:
                          for row in node.at("supervised").items()),
         protections=tuple(Protection(**_read_numbers(row, Protection), component=row.at("component").index_or_none(component_count),
                                      max_delta=row.at("max_delta").whole_or_none()) for row in node.at("protections").items()),
+        assumptions=tuple(Assumption(row.at("name").text(), row.at("within_ns").whole()) for row in node.at("assumptions").items()),
         confirmations=tuple(FaultConfirmation(**_read_numbers(row, FaultConfirmation)) for row in node.at("confirmations").items()),
         stop_sources=tuple(StopSource(row.at("component").index_or_none(component_count), row.at("port").text(),
                                       tuple(item.text(CONFIRMATIONS) for item in row.at("confirms").items()))

@@ -34,6 +34,8 @@ def make_safety_sections(table: Table) -> Iterator[Section]:
     yield "confirmations of stops", [("confirmation", "source"), *sources]
     tests = [(f"{number}", format_time(row.found_within_ns), name_fault(table, row.fault)) for number, row in enumerate(safety.self_tests)]
     yield "repeated self tests", [("self test", "found within", "fault"), *tests]
+    assumptions = [(row.name, format_time(row.within_ns), name_fault(table, safety.cycle.self_test_fault)) for row in safety.assumptions]
+    yield "assumptions", [("assumption", "known within", "fault"), *assumptions]
     protections = [(table.component_name(row.component), f"profile {row.profile}", format_time(row.fresh_within_ns),
                     format_time(row.lead_ns) if row.lead_ns else "", "" if row.max_delta is None else str(row.max_delta - 1),
                     name_fault(table, row.fault)) for row in safety.protections]  # fmt: skip

@@ -49,9 +49,6 @@ extern mamori::safety::SafetyState safety_state;
 Facts facts;
 
 safe_arm::ArmChecks checks{watchdog};
-constexpr std::array kAssumptions = safe_arm::make_arm_assumptions(checks);
-static_assert(mamori::safety::checks_all<kAssumptions, safe_arm::ArmAssumption::kCount>());
-mamori::safety::AssumptionMonitor assumptions{kAssumptions};
 
 safe_arm::ArmReader reader{inputs};
 safe_arm::JointMonitor monitor;
@@ -67,6 +64,7 @@ mamori::Crossing<safe_arm::TorqueCommand> command_crossing;
 
 constexpr auto kSystem = mamori::safety::system(
     mamori::frame(safe_arm::kFrame), mamori::trace_hash(), safe_arm::make_arm_safety(safe_arm::kLatenessMax),
+    safe_arm::make_arm_assumptions(checks),
     safe_arm::make_arm_modes(reader, monitor, supervisor, controller, channel, gate),
     supervise(reader, alive(), deadline(safe_arm::kControllerMax)),
     supervise(monitor, alive(), deadline(safe_arm::kControllerMax)),
@@ -97,7 +95,7 @@ constexpr auto kSystem = mamori::safety::system(
 MAMORI_SAFETY_CHECK(kSystem);
 
 mamori::safety::SafetyStorage<kSystem> safety_storage;
-mamori::safety::SafetyState safety_state{safety_storage, watchdog, &assumptions};
+mamori::safety::SafetyState safety_state{safety_storage, watchdog};
 
 mamori::SystemModes modes{mamori::make_view(kSystem)};
 mamori::ExecutiveFor executive_of_table{kSystem, modes};

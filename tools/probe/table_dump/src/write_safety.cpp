@@ -97,6 +97,10 @@ std::string make_protection(const SystemView& view, const ProtectRow& row) {
                         {"fault", format_fault(row.fault)}});
 }
 
+std::string make_assumption(const AssumptionRow& row) {
+    return make_object({{"name", quote(to_text(row.name))}, {"within_ns", format_ns(row.within)}});
+}
+
 std::string make_cycle(const CycleRow& row) {
     const auto make_fault = [&](std::size_t fault) -> std::string {
         return ((row.brakes_first >> fault) & 1U) != 0U ? std::to_string(fault) : "";
@@ -133,6 +137,8 @@ void write_safety(std::ostream& out, const SystemView& view, const SafetyView* s
                      [&](std::size_t i) { return make_self_test(safety->self_tests[i]); });
     json::write_rows(out, "protections", safety->protections.size(),
                      [&](std::size_t i) { return make_protection(view, safety->protections[i]); });
+    json::write_rows(out, "assumptions", safety->assumptions.size(),
+                     [&](std::size_t i) { return make_assumption(safety->assumptions[i]); });
     out << "\n }";
 }
 

@@ -48,6 +48,12 @@ class NoTest final : public safety::SelfTest {
     std::size_t get_step_count() const noexcept override { return 1U; }
 };
 
+class NoCheck final : public safety::AssumptionCheck {
+  public:
+    safety::SelfTestStatus check() noexcept override { return safety::SelfTestStatus::kPassed; }
+};
+enum class Assumption : safety::AssumptionIndex { kClock };
+
 enum class Entity { kSensor };
 enum class Point { kRead, kWritten };
 constexpr std::array kEntities{safety::supervise(Entity::kSensor)};
@@ -61,6 +67,7 @@ constexpr safety::SupervisionTable kCheckpoints{kEntities, kPoints, kAlives, {},
 Sensor g_sensor{"sensor"};
 Decider g_decider{"decider"};
 NoTest g_test;
+NoCheck g_check;
 Receiver g_receiver{"receiver"};
 safety::ExpiryStorage g_expiry;
 safety::ExpiryMemory g_memory{g_expiry};
@@ -84,6 +91,7 @@ constexpr auto kSystem = safety::system(
                          safety::StopConfirmation::kTorqueOff),
     safety::confirmed_by(g_sensor.seen, safety::StopConfirmation::kClosedBrakes),
     safety::self_test(g_test, safety::found_within(10_s), safety::raises(Alarm::kTest)),
+    safety::assume(Assumption::kClock, "clock", g_check, 100_ms),
     safety::protect(g_receiver, fresh_within(4_ms, 1_us), safety::raises(Alarm::kSilent)),
     safety::cycle(safety::StopBounds{20_ms, 30_ms}, safety::BrakeLimits{10_ms, true},
                   safety::WatchdogWindow{500_us, 4_ms}, safety::torque_feedback(5_ms),
@@ -122,7 +130,8 @@ TEST(WriteSafetyTest, EachRowOfTheSafetyLayerIsWritten) {
                          {"component": 0, "port": "seen", "confirms": ["closed_brakes"]}],
         "self_tests": [{"found_within_ns": 10000000000, "fault": 2}],
         "protections": [{"component": 2, "profile": 44, "fresh_within_ns": 4000000, "lead_ns": 1000,
-                         "max_delta": 3, "fault": 1}]})"));
+                         "max_delta": 3, "fault": 1}],
+        "assumptions": [{"name": "clock", "within_ns": 100000000}]})"));
 }
 
 TEST(WriteSafetyTest, ATableOfTheKernelAloneHasNone) {
@@ -136,7 +145,7 @@ TEST(WriteSafetyTest, RowsThatNameNothingAreShownAsSuch) {
     const std::array<safety::StopSourceRow, 1U> sources{};
     const std::array<safety::ProtectRow, 1U> protections{};
     const safety::CycleRow cycle{};
-    const safety::SafetyView rows{supervised, {}, sources, {}, protections, cycle};
+    const safety::SafetyView rows{supervised, {}, sources, {}, protections, {}, cycle};
 
     const json table = dump(SystemView{}, &rows)["safety"];
 

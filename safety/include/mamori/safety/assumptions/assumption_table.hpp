@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "mamori/kernel/base/time.hpp"
+#include "mamori/kernel/system/system_extension.hpp"
 #include "mamori/safety/base/self_test_status.hpp"
 
 namespace mamori::safety {
@@ -35,8 +36,12 @@ class AssumptionCheck {
     ~AssumptionCheck() = default;
 };
 
-/// One row: the assumption, its name for logs, its check, and the time in which it must be known to hold.
+/// Kind of part of safety::system(...).
+struct AssumptionTag {};
+/// One row: the assumption, its name for logs, its check, and the time in which it must be known to hold. A
+/// part of safety::system(...), whose cycle checks it, or an element of an array for an AssumptionMonitor.
 struct AssumptionRow {
+    using Types = extension::ExtensionTypes<AssumptionTag>;
     AssumptionIndex assumption{kNoAssumption};
     const char* name{""};
     AssumptionCheck* check{nullptr};

@@ -57,6 +57,8 @@ enum class SafetyRule : std::uint8_t {
     kProtectedReachable,      ///< protect
     kProtectedLossesInTime,   ///< protect
     kProtectedOnCore,         ///< protect
+    kAssumptionsNumbered,     ///< assume
+    kAssumptionHasTime,       ///< assume
 };
 
 /// The first violated rule; kNone when there is none.

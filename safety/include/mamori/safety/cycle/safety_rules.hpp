@@ -127,6 +127,19 @@ constexpr SafetyFinding check_self_tests(const Table& table) noexcept {
 }
 
 template <typename Table>
+constexpr SafetyFinding check_assumptions(const Table& table) noexcept {
+    for (std::size_t i = 0U; i < table.assumptions.size(); ++i) {
+        if (table.assumptions[i].assumption != i) {
+            return {SafetyRule::kAssumptionsNumbered, i};
+        }
+        if (table.assumptions[i].within <= Duration{0}) {
+            return {SafetyRule::kAssumptionHasTime, i};
+        }
+    }
+    return {};
+}
+
+template <typename Table>
 constexpr SafetyFinding check_cycle(const Table& table) noexcept {
     constexpr Duration kNothing{0};
     const CycleRow& row = table.cycle;
@@ -165,6 +178,7 @@ constexpr SafetyFinding check_safety(const Table& table) noexcept {
     finding = finding.rule == SafetyRule::kNone ? check_confirmations(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_self_tests(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_protections(table) : finding;
+    finding = finding.rule == SafetyRule::kNone ? check_assumptions(table) : finding;
     finding = finding.rule == SafetyRule::kNone ? check_cycle(table) : finding;
     return finding.rule == SafetyRule::kNone ? check_stop_sources(table) : finding;
 }
@@ -338,6 +352,9 @@ struct SafetyTableIsSound : std::true_type {
         "lower max_delta");
     static_assert(kRule != SafetyRule::kProtectedOnCore,
                   "the receiver of protect(...) runs on the core and in the class of the safety cycle");
+    static_assert(kRule != SafetyRule::kAssumptionsNumbered,
+                  "assume(...) names the enumerators 0, 1, ... of one enumeration, in this order");
+    static_assert(kRule != SafetyRule::kAssumptionHasTime, "the time of assume(...) is positive");
 };
 
 namespace detail {

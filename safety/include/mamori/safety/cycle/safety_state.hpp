@@ -2,7 +2,8 @@
 /// @file
 /// What the safety cycle of a table remembers: supervision, faults, state, brakes and watchdog.
 ///
-/// @satisfies SWR-CYC-003, SWR-CYC-013, SWR-CYC-014      Design: docs/design/safety_cycle.md#memory
+/// @satisfies SWR-CYC-003, SWR-CYC-013, SWR-CYC-014, SWR-CYC-036      Design:
+/// docs/design/safety_cycle.md#memory
 #ifndef MAMORI_SAFETY_SAFETY_STATE_HPP
 #define MAMORI_SAFETY_SAFETY_STATE_HPP
 
@@ -55,6 +56,13 @@ constexpr std::array<SelfTestSchedule, kCount> make_schedules(
     return {{SelfTestSchedule{{&rows[kIndices].check, 1U}, Duration{rows[kIndices].found_within.ns / 2}}...}};
 }
 
+/// A monitor of the assumptions; none without assumptions.
+template <std::size_t... kIndices>
+constexpr std::array<AssumptionMonitor, sizeof...(kIndices)> make_monitors(
+    [[maybe_unused]] Span<const AssumptionRow> rows, std::index_sequence<kIndices...> /*monitors*/) noexcept {
+    return {{(static_cast<void>(kIndices), AssumptionMonitor{rows})...}};
+}
+
 }  // namespace detail
 
 /// Memory for the table `kTable` of safety::system(), in static storage.
@@ -63,6 +71,9 @@ struct SafetyStorage {
     static_assert(keeps_safety_rules<kTable>());
     ExecutionStorageFor<kTable> execution{};
     std::array<FaultRecord, kTable.faults.size()> faults{};
+    static constexpr std::size_t kMonitors = kTable.assumptions.empty() ? 0U : 1U;
+    std::array<AssumptionMonitor, kMonitors> assumptions{
+        detail::make_monitors(kTable.assumptions, std::make_index_sequence<kMonitors>{})};
     std::array<SelfTestSchedule, kTable.self_tests.size()> self_tests{
         detail::make_schedules(kTable.self_tests, std::make_index_sequence<kTable.self_tests.size()>{})};
 };
@@ -74,19 +85,17 @@ struct SafetyStorage {
 ///     static Supervisor supervisor{safety};                    // derived from SafetyCycle
 ///     static constexpr auto kSystem = mamori::safety::system(..., mamori::run(supervisor), ...);
 ///     static mamori::safety::SafetyStorage<kSystem> storage;
-///     mamori::safety::SafetyState safety{storage, watchdog, &assumptions};
+///     mamori::safety::SafetyState safety{storage, watchdog};
 ///
 /// Thread safety: get_observer() as ExecutionSupervisor; all other members from the context of the cycle.
 /// Memory:        no heap; all state is here and in the storage, which must outlive this object.
 class SafetyState final {
   public:
-    /// @param[in] storage     of the table. @param[in] watchdog must outlive this object.
-    /// @param[in] assumptions stepped in each cycle; nullptr: none. Must outlive this object.
+    /// @param[in] storage of the table. @param[in] watchdog must outlive this object.
     template <const auto& kTable>
-    constexpr SafetyState(SafetyStorage<kTable>& storage, Watchdog& watchdog,
-                          AssumptionMonitor* assumptions = nullptr) noexcept
+    constexpr SafetyState(SafetyStorage<kTable>& storage, Watchdog& watchdog) noexcept
         : table_(make_safety_view(kTable)),
-          assumptions_(assumptions),
+          assumptions_(storage.assumptions),
           reactions_(kTable.reactions),
           stop_sources_(detail::find_stop_sources(kTable)),
           checkpoints_(detail::find_checkpoints(kTable)),
@@ -119,7 +128,7 @@ class SafetyState final {
 
     DecisionFlow flow_{};
     SafetyView table_;
-    AssumptionMonitor* assumptions_;
+    Span<AssumptionMonitor> assumptions_;
     Span<const ReactionRow> reactions_;
     std::array<std::size_t, kStopConfirmationCount> stop_sources_;
     CheckpointSupervisor* checkpoints_;

@@ -25,6 +25,7 @@
 
 #include "mamori/kernel/base/span.hpp"
 #include "mamori/kernel/system/system_extension.hpp"
+#include "mamori/safety/assumptions/assumption_table.hpp"
 #include "mamori/safety/cycle/safety_part.hpp"
 
 namespace mamori::safety {
@@ -39,6 +40,7 @@ struct SafetySystem : DescribedSystem<PartTypes> {
     std::array<StopSourceRow, extension::kPartCount<StopSourceTag, PartTypes>> stop_sources{};
     std::array<SelfTestRow, extension::kPartCount<SelfTestTag, PartTypes>> self_tests{};
     std::array<ProtectRow, extension::kPartCount<ProtectTag, PartTypes>> protections{};
+    std::array<AssumptionRow, extension::kPartCount<AssumptionTag, PartTypes>> assumptions{};
     CycleRow cycle{};
 };
 
@@ -49,13 +51,14 @@ struct SafetyView {
     Span<const StopSourceRow> stop_sources{};
     Span<const SelfTestRow> self_tests{};
     Span<const ProtectRow> protections{};
+    Span<const AssumptionRow> assumptions{};
     const CycleRow& cycle;
 };
 /// @param[in] table must outlive the result.
 template <typename Types>
 constexpr SafetyView make_safety_view(const SafetySystem<Types>& table) noexcept {
-    return {table.supervised, table.confirmations, table.stop_sources,
-            table.self_tests, table.protections,   table.cycle};
+    return {table.supervised,  table.confirmations, table.stop_sources, table.self_tests,
+            table.protections, table.assumptions,   table.cycle};
 }
 
 template <typename Types, typename... Faults>
@@ -103,6 +106,15 @@ constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
         next += row.receiver != nullptr ? 1U : 0U;
     }
     builder.table.protections[next] = part.row;
+}
+template <typename Types>
+constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
+                        const AssumptionRow& row) noexcept {
+    std::size_t next = 0U;
+    for (const AssumptionRow& other : builder.table.assumptions) {
+        next += other.check != nullptr ? 1U : 0U;
+    }
+    builder.table.assumptions[next] = row;
 }
 template <typename Types, typename... Faults>
 constexpr void add_part(extension::TableBuilder<SafetySystem<Types>>& builder,
