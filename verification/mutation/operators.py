@@ -16,6 +16,8 @@ from dataclasses import dataclass
 import tree_sitter_cpp
 from tree_sitter import Language, Node, Parser
 
+from verification.mutation import wiring
+
 LANGUAGE = Language(tree_sitter_cpp.language())
 
 # The replacements of each operator. For a comparison: a limit moved by one, and the opposite comparison.
@@ -88,13 +90,14 @@ def iterate_words(source: bytes) -> Iterator[bytes]:
 
 
 def make_mutants(file: str, source: bytes) -> list[Mutant]:
-    """All mutants of `source`, sorted by location. Two changes with equal results are one mutant."""
+    """All mutants of `source`, sorted by location. Two changes with equal results are one mutant. Examples have those of limits and wiring,
+    too."""
     mutants: list[Mutant] = []
     seen: set[bytes] = {source}
-    changes = {
-        Mutant(file, node.start_byte, node.end_byte, operator, _keep_lines(node, replacement))
-        for node, operator, replacement in _walk(Parser(LANGUAGE).parse(source).root_node)
-    }
+    root = Parser(LANGUAGE).parse(source).root_node
+    changes = {Mutant(file, node.start_byte, node.end_byte, operator, _keep_lines(node, replacement)) for node, operator, replacement in _walk(root)}
+    if file.startswith("examples/"):
+        changes.update(Mutant(file, *change) for change in wiring.make_changes(root))
     for mutant in sorted(changes):
         text = mutant.apply(source)
         if text not in seen:

@@ -9,10 +9,12 @@ from __future__ import annotations
 import json
 import queue
 import random
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import shutil
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
+from itertools import repeat
 from pathlib import Path
 
 from mamori_trace.base.text_file import write_text
@@ -20,12 +22,13 @@ from verification.mutation.baseline import Standing
 from verification.mutation.equivalent import Row, match
 from verification.mutation.operators import Mutant, make_mutants
 from verification.mutation.score import LISTED, Counts, add_up, add_up_layers, calc_interval, count, is_met
-from verification.mutation.sources import Layer, Sources
+from verification.mutation.sources import Layer, Sources, get_layer
 from verification.mutation.trial import KILLED, SURVIVED, Result, Suspect, judge_together, make_companies, screen
 from verification.mutation.workbench import TEST_TIMEOUT_S, Baseline, Bench
 
 SCHEMA = "mamori.mutation/3"
 SWEEP = 400  # mutants before the remaining ones are evaluated together
+EXAMPLE_SWEEP = 80  # the same for an example, whose run is often stopped: the mutants of complete sweeps are a sample
 Progress = Callable[[Result, int, int], None]
 
 
@@ -75,7 +78,20 @@ class Report:
 
     @property
     def passed(self) -> bool:
-        return self.is_consistent and all(is_met(counts, layer.bar, self.plan.is_sample) for layer, counts in self.layers.items())
+        return self.is_consistent and all(
+            is_met(counts, layer.bar, self.plan.is_sample) and is_met(self.count_campaign(layer), layer.campaign_bar, self.plan.is_sample)
+            for layer, counts in self.layers.items()
+        )
+
+    def count_campaign(self, layer: Layer) -> Counts:
+        """Mutants of a layer that the campaign killed, and those that it could have killed but did not."""
+        tried = [result for result in self.results if get_layer(result.mutant.file) == layer and result.verdict in (KILLED, SURVIVED)]
+        killed = sum(result.is_by_campaign for result in tried)
+        return Counts(killed, sum(not result.is_by_compiler for result in tried) - killed)
+
+    def count_rejected(self, layer: Layer) -> int:
+        """Mutants of a layer that a rule rejects when it is compiled."""
+        return sum(result.is_by_compiler for result in self.results if get_layer(result.mutant.file) == layer)
 
     @property
     def is_consistent(self) -> bool:
@@ -84,14 +100,14 @@ class Report:
 
 
 def make_plan(root: Path, selection: Selection, rows: Sequence[Row]) -> Plan:
-    """The same sources and selection give the same plan."""
+    """The same sources and selection give the same plan. A sample is in random order."""
     sources = {file: (root / file).read_bytes() for file in sorted(selection.files)}
     everything = [mutant for file, source in sources.items() for mutant in make_mutants(file, source)]
     listed, unused = match(rows, everything, sources)
     chosen = everything
     is_sample = selection.size is not None and selection.size < len(everything)
     if is_sample:
-        chosen = sorted(random.Random(selection.seed).sample(everything, selection.size or 0))
+        chosen = random.Random(selection.seed).sample(everything, selection.size or 0)
     return Plan(sources, tuple(chosen), listed, tuple(unused), is_sample)
 
 
@@ -106,26 +122,33 @@ def try_mutants(
     for number in range(jobs):
         benches.put(Bench(baseline, f"bench-{number}"))
 
-    def screen_one(mutant: Mutant) -> Result | Suspect:
-        with _borrow(benches) as bench:
-            return screen(bench, mutant, texts)
+    sweep = EXAMPLE_SWEEP if sources.has_campaign else SWEEP
 
-    def judge_some(suspects: Sequence[Suspect]) -> list[Result]:
+    def screen_one(suspect: Suspect, stage: int) -> list[Result | Suspect]:
         with _borrow(benches) as bench:
-            return judge_together(bench, suspects, texts)
+            return [screen(bench, suspect, texts, stage)]
+
+    def judge_some(suspects: Sequence[Suspect], stage: int) -> list[Result | Suspect]:
+        with _borrow(benches) as bench:
+            return judge_together(bench, suspects, texts, stage)
+
+    def keep_suspects(found: Iterable[list[Result | Suspect]]) -> list[Suspect]:
+        left: list[Suspect] = []
+        for each in (each for some in found for each in some):
+            if isinstance(each, Suspect):
+                left.append(each)
+            else:
+                shutil.rmtree(baseline.get_folder(each.mutant), ignore_errors=True)
+                note(each)
+        return left
 
     with ThreadPoolExecutor(jobs) as pool:
         try:
-            for start in range(0, len(mutants), SWEEP):
-                suspects: list[Suspect] = []
-                for tried in pool.map(screen_one, mutants[start : start + SWEEP]):
-                    if isinstance(tried, Suspect):
-                        suspects.append(tried)
-                    else:
-                        note(tried)
-                for results in pool.map(judge_some, make_companies(suspects, jobs)):
-                    for result in results:
-                        note(result)
+            for start in range(0, len(mutants), sweep):
+                suspects = [Suspect(mutant) for mutant in mutants[start : start + sweep]]
+                for stage in range(len(baseline.stages)):
+                    suspects = keep_suspects(pool.map(screen_one, suspects, repeat(stage)))
+                    suspects = keep_suspects(pool.map(judge_some, make_companies(suspects, jobs), repeat(stage)))
         except BaseException:
             baseline.is_stopped = True
             pool.shutdown(wait=False, cancel_futures=True)

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from verification.mutation.sources import LAYERS, Layer, get_layer
+from verification.mutation.sources import ALL_LAYERS, Layer, get_layer
 from verification.mutation.trial import EQUIVALENT, INVALID, KILLED, SURVIVED, Result
 
 DOUBT = 0.05  # a sample contradicts the limit if a layer exactly at the limit yields such a sample with a probability below this
@@ -64,8 +64,8 @@ def add_up(files: dict[str, Counts]) -> Counts:
 
 
 def add_up_layers(files: dict[str, Counts]) -> dict[Layer, Counts]:
-    """The sum of each layer that has files, in the order of LAYERS."""
-    sums = {layer: {file: counts for file, counts in files.items() if get_layer(file) == layer} for layer in LAYERS}
+    """The sum of each layer that has files, in the order of ALL_LAYERS."""
+    sums = {layer: {file: counts for file, counts in files.items() if get_layer(file) == layer} for layer in ALL_LAYERS}
     return {layer: add_up(own) for layer, own in sums.items() if own}
 
 

@@ -7,10 +7,11 @@
 from __future__ import annotations
 
 import json
+import re
 import shlex
 import subprocess
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mamori_trace.base.errors import WorkError
@@ -21,15 +22,19 @@ COMPILER = "clang++-19"
 @dataclass(frozen=True)
 class Layer:
     """A layer whose own tests must find its faults: the required share of faults, the layers and libraries that it or its tests use, the
-    target that generates the headers of its tests, and a program that compiles sources again with options of its own, whose tests are
-    left out."""
+    target that generates the headers of its tests, and programs that are left out, because they compile sources again with options of their
+    own, or need more than the layer. An example also has the files to mutate, its program, which runs the fault plan `faults.yaml`, and the
+    share of faults that this campaign must find."""
 
     name: str
     bar: float
     below: tuple[str, ...] = ()
     libraries: tuple[str, ...] = ()
     generated: str = ""
-    special: str = ""
+    special: tuple[str, ...] = ()
+    files: tuple[str, ...] = ()
+    program: str = ""
+    campaign_bar: float = 0.0
 
     @property
     def is_port(self) -> bool:
@@ -43,20 +48,35 @@ LAYERS = (
     Layer("ports/conformance", 0.90, TARGET_LAYERS),
     Layer("ports/lcm", 0.90, TARGET_LAYERS, ("-llcm",), "lcm_official_test"),
     Layer("ports/posix_rt", 0.90, (*TARGET_LAYERS, "ports/conformance")),
-    Layer("ports/virtual_time", 0.90, (*TARGET_LAYERS, "ports/conformance"), special="call_chain_test"),
+    Layer("ports/virtual_time", 0.90, (*TARGET_LAYERS, "ports/conformance"), special=("call_chain_test",)),
 )
+
+# Only on request: a change of the example makes no stored result invalid.
+EXAMPLE = Layer(
+    "examples/safe_arm", 0.98, (*TARGET_LAYERS, "ports/posix_rt", "ports/virtual_time", "simbody_sim", "tools/probe/table_dump", "tools/probe/timing"),
+    ("-lSimTKsimbody", "-lSimTKmath", "-lSimTKcommon", "-lyaml-cpp", "-lorocos-kdl"),
+    special=("safe_arm_controllers_test", "safe_arm_hil", "safe_arm_hil_test", "hil_plant", "hil_kernel", "hil_controller", "hil_virtual", "hil_types"),
+    files=("arm_assumptions.hpp", "arm_faults.hpp", "arm_limits.hpp", "arm_reader.cpp", "arm_safety.hpp", "arm_self_check.hpp", "command_link.hpp",
+           "drive_gate.cpp", "joint_monitor.cpp", "joint_monitor.hpp", "machine.cpp", "messages.hpp", "operator_panel.cpp",
+           "operator_panel.hpp", "safe_arm_system.cpp", "safe_arm_system.hpp", "safety_supervisor.cpp", "safety_supervisor.hpp",
+           "start_up_check.cpp", "start_up_check.hpp", "stop_loop.hpp"),
+    program="safe_arm", campaign_bar=0.60)  # fmt: skip
+ALL_LAYERS = (*LAYERS, EXAMPLE)
+PLAN = "faults.yaml"
+PROGRAM_UNIT = "main.cpp"
+PROGRAM = "./program"  # of the mutant, in the folder in which a test runs
 
 
 def get_layer(file: str) -> Layer:
-    """@param file relative to the root, of one of LAYERS."""
-    return next(layer for layer in LAYERS if file.startswith(f"{layer.name}/"))
+    """@param file relative to the root, of one of ALL_LAYERS."""
+    return next(layer for layer in ALL_LAYERS if file.startswith(f"{layer.name}/"))
 
 
 def list_files(root: Path, layers: Sequence[Layer] = LAYERS) -> list[str]:
     """Files to mutate, relative to the root: headers and sources of `layers`, without tests."""
-    folders = [root / layer.name for layer in layers]
-    patterns = ("include/**/*.hpp", "src/**/*.hpp", "src/**/*.cpp")
-    return sorted(path.relative_to(root).as_posix() for folder in folders for pattern in patterns for path in folder.glob(pattern))
+    default = ("include/**/*.hpp", "src/**/*.hpp", "src/**/*.cpp")
+    found = {path for layer in layers for pattern in layer.files or default for path in (root / layer.name).glob(pattern)}
+    return sorted(path.relative_to(root).as_posix() for path in found)
 
 
 @dataclass(frozen=True)
@@ -71,14 +91,23 @@ class Unit:
         return self.path.startswith("tests/")
 
     @property
+    def case(self) -> str:
+        """Id of the case, if this is a test of a campaign, which has no file."""
+        return self.path.removeprefix("campaign/") if self.path.startswith("campaign/") else ""
+
+    @property
+    def runs_program(self) -> bool:
+        return bool(self.case) or any(PROGRAM in flag for flag in self.flags)
+
+    @property
     def stem(self) -> str:
         return Path(self.path).stem
 
 
 @dataclass(frozen=True)
 class Sources:
-    """A layer below `root`, its units, the sources (relative to `root`) of the layers that it uses, its libraries, and the header that all
-    its tests include first."""
+    """A layer below `root`, its units, the sources (relative to `root`) of the layers that it uses, its libraries, and the headers that all
+    its tests include first: in an example, all units. The program of an example is linked from all units without tests."""
 
     root: Path
     units: tuple[Unit, ...]
@@ -86,7 +115,8 @@ class Sources:
     below: tuple[Unit, ...] = ()
     libraries: tuple[str, ...] = ()
     is_enclosed: bool = False  # the tests have processes of their own, and a mutant must not reach any others
-    prefix_header: str = "mamori/trace/verifies.hpp"
+    prefix_headers: tuple[str, ...] = ('"mamori/trace/verifies.hpp"',)
+    has_campaign: bool = False
 
     @property
     def folder(self) -> Path:
@@ -96,17 +126,41 @@ class Sources:
 def read_sources(root: Path, build: Path, layer: Layer, jobs: int = 1) -> Sources:
     """Configures the project in `build`, and generates the headers of the tests. @raise WorkError."""
     argv = ("cmake", "-S", str(root), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
-            f"-DCMAKE_CXX_COMPILER={COMPILER}", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", "-DMAMORI_WITH_SIMBODY_SIM=OFF",
-            "-DMAMORI_BUILD_EXAMPLES=OFF")  # fmt: skip
+            f"-DCMAKE_CXX_COMPILER={COMPILER}", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
+            *(f"-D{option}={'ON' if layer.program else 'OFF'}" for option in ("MAMORI_WITH_SIMBODY_SIM", "MAMORI_BUILD_EXAMPLES")))  # fmt: skip
     _run_cmake(argv)
     if layer.generated:
         _run_cmake(("cmake", "--build", str(build), "--target", layer.generated, "--parallel", str(jobs)))
-    entries = drop_program(json.loads((build / "compile_commands.json").read_text(encoding="utf-8")), layer.special)
+    entries = drop_programs(json.loads((build / "compile_commands.json").read_text(encoding="utf-8")), layer.special)
     units = _select_units(entries, root / layer.name, root / layer.name)
     if not any(unit.is_test for unit in units):
         raise WorkError(f"{root / layer.name} has no test that CMake knows; nothing could be killed")
     below = [unit for name in layer.below for unit in _select_units(entries, root / name / "src", root)]
+    if layer.program:
+        local = {str(build / layer.name / layer.program): PROGRAM, str(root / layer.name): layer.name}
+        units = [replace(unit, flags=localise(unit.flags, (root / layer.name / unit.path).read_text(encoding="utf-8"), local)) for unit in units]
+        return Sources(root, tuple(units), layer.name, tuple(below), layer.libraries, prefix_headers=_list_headers(root / layer.name), has_campaign=True)
     return Sources(root, tuple(units), layer.name, tuple(below), layer.libraries, layer.is_port)
+
+
+def localise(flags: Sequence[str], text: str, local: Mapping[str, str]) -> tuple[str, ...]:
+    """The flags of a unit with this text: without definitions that it does not use, and with paths relative to the folder in which a test
+    runs, so that the objects of all copies are equal. @param local relative path of each absolute path."""
+    kept = []
+    for flag in flags:
+        if flag.startswith("-D"):
+            for absolute, relative in local.items():
+                flag = flag.replace(absolute, relative)
+            if flag[2:].partition("=")[0] not in text:
+                continue
+        kept.append(flag)
+    return tuple(kept)
+
+
+def _list_headers(folder: Path) -> tuple[str, ...]:
+    """Headers of other layers and libraries that the layer includes."""
+    texts = [path.read_text(encoding="utf-8") for pattern in ("*.?pp", "tests/*.?pp") for path in sorted(folder.glob(pattern))]
+    return tuple(sorted({header for text in texts for header in re.findall(r'^#include (<[^>]+>|"mamori/[^"]+")', text, re.MULTILINE)}))
 
 
 def _run_cmake(argv: Sequence[str]) -> None:
@@ -115,9 +169,9 @@ def _run_cmake(argv: Sequence[str]) -> None:
         raise WorkError(f"'{' '.join(argv)}' failed:\n{(done.stdout + done.stderr).strip()[-2000:]}")
 
 
-def drop_program(entries: Sequence[dict[str, str]], program: str) -> list[dict[str, str]]:
-    """The entries without those of `program`."""
-    return [entry for entry in entries if f"/{program}.dir/" not in entry["command"]]
+def drop_programs(entries: Sequence[dict[str, str]], programs: Sequence[str]) -> list[dict[str, str]]:
+    """The entries without those of `programs`."""
+    return [entry for entry in entries if not any(f"/{program}.dir/" in entry["command"] for program in programs)]
 
 
 def _select_units(entries: Sequence[dict[str, str]], folder: Path, base: Path) -> list[Unit]:

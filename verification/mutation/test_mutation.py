@@ -50,15 +50,15 @@ def test_one_seed_gives_one_sample_and_another_seed_another(sources: Sources) ->
 
 @pytest.mark.verifies("SWR-VER-004", technique="error_guessing", polarity="violation")
 def test_file_that_is_none_of_the_kernels_is_refused_with_the_nearest() -> None:
-    with pytest.raises(InputError, match=r"'kernel/src/event_lock.cpp' is no source or header of kernel, safety or ports.*kernel/src/record/event_log.cpp"):
-        choose_files(("kernel/src/event_lock.cpp",), ("kernel/src/record/event_log.cpp", "kernel/src/base/assert.cpp"))
+    with pytest.raises(InputError, match=r"'kernel/src/event_lock.cpp' is no source or header of kernel, safety, ports or.*kernel/src/record/event_log.cpp"):
+        choose_files(("kernel/src/event_lock.cpp",), {LAYERS[0]: ("kernel/src/record/event_log.cpp", "kernel/src/base/assert.cpp")})
 
 
 @pytest.mark.verifies("SWR-VER-004", technique="error_guessing", polarity="violation")
 def test_file_that_is_like_none_of_the_kernels_is_refused_in_one_short_line() -> None:
     with pytest.raises(InputError) as refusal:
-        choose_files(("nothing.cpp",), tuple(f"kernel/include/mamori/kernel/unit_{i}.hpp" for i in range(200)))
-    assert str(refusal.value) == ("mutate: 'nothing.cpp' is no source or header of kernel, safety or ports; "
+        choose_files(("nothing.cpp",), {LAYERS[0]: [f"kernel/include/mamori/kernel/unit_{i}.hpp" for i in range(200)]})
+    assert str(refusal.value) == ("mutate: 'nothing.cpp' is no source or header of kernel, safety, ports or examples/safe_arm; "
                                   "./mamori mutate --list shows them with their mutants")  # fmt: skip
 
 

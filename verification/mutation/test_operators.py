@@ -28,9 +28,36 @@ CHANGES = {
 }
 
 
-def list_changes(text: str) -> list[str]:
+# Changes of an example that no other layer has.
+WIRING = {
+    "double a{1.5};": ["{(2.0 * 1.5)}", "{(0.5 * 1.5)}", "{(-1.5)}"],
+    "double a{0.0};": [],
+    "auto a = 90_ms;": ["180_ms", "45_ms"],
+    "auto a = 1U;": [],  # `constant` makes 0 and 2
+    "V a{1, 2, 3};": ["{2, 1, 3}", "{1, 3, 2}", "{2, 3}", "{1, 3}", "{1, 2}", "{1, 4, 3}", "{1, 2, 1}", "{1, 2, 6}"],
+    "void f() { set(a.x, a.y); }": ["(a.y, a.x)", "(a.y, a.y)", "(a.x, a.x)"],
+    "void f() { set(a, 1U, g()); }": [],
+    "auto t = mamori::parts(\n    react(a),\n    react(b));": ["(\n    \nreact(b))", "(\n    react(a)\n)"],
+    "auto t = faults<F::kA, F::kB, F::kC>();": ["<F::kB, F::kA, F::kC>", "<F::kA, F::kC, F::kB>", "<F::kB, F::kC>", "<F::kA, F::kC>",
+                                             "<F::kA, F::kB>", "<F::kB, F::kB, F::kC>", "<F::kA, F::kC, F::kC>", "<F::kA, F::kB, F::kA>"],
+    "F f(F a) { switch (a) { case F::kA: return F::kB; } return F::kC; }": ["return F::kC; }", "return F::kB; }"],
+}  # fmt: skip
+
+
+def list_changes(text: str, file: str = "a.cpp") -> list[str]:
     source = text.encode("utf-8")
-    return [mutant.apply(source).decode("utf-8") for mutant in make_mutants("a.cpp", source)]
+    return [mutant.apply(source).decode("utf-8") for mutant in make_mutants(file, source)]
+
+
+@pytest.mark.parametrize("text", WIRING)
+@pytest.mark.verifies("SWR-VER-033", technique="equivalence_classes")
+def test_example_has_changes_of_limits_and_wiring_too(text: str) -> None:
+    others = list_changes(text)
+    changes = [change for change in list_changes(text, "examples/a/a.cpp") if change not in others]
+
+    assert [wanted for wanted in WIRING[text] if not any(wanted in change for change in changes)] == []
+    assert len(changes) == len(WIRING[text]), changes
+    assert {change.count("\n") for change in changes} <= {text.count("\n")}
 
 
 @pytest.mark.parametrize("text", CHANGES)

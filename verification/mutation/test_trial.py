@@ -15,7 +15,7 @@ from mamori_trace.base.errors import WorkError
 from verification.mutation import workbench
 from verification.mutation.operators import Mutant, make_mutants
 from verification.mutation.run import Report, Selection, make_plan, try_mutants
-from verification.mutation.sources import Sources, Unit, drop_program, get_layer, keep_flags, list_files
+from verification.mutation.sources import Sources, Unit, drop_programs, get_layer, keep_flags, list_files
 from verification.mutation.trial import (
     COMPANY,
     EQUIVALENT,
@@ -34,7 +34,7 @@ from verification.tests.support.weak_layer import FILES, FLAGS, HEADER, LIMIT_LI
 
 
 def make_suspect(start: int, end: int, file: str = SOURCE) -> Suspect:
-    return Suspect(Mutant(file, start, end, "constant", "0"), frozenset(), ())
+    return Suspect(Mutant(file, start, end, "constant", "0"))
 
 
 @pytest.mark.verifies("SWR-VER-005")
@@ -88,7 +88,7 @@ def test_program_with_options_of_its_own_is_left_out() -> None:
     kept = [compile_into("mamori_a", "src/one.cpp"), compile_into("a_special_test", "tests/one_test.cpp")]
     special = [compile_into("special_test", "src/one.cpp"), compile_into("special_test", "tests/special_test.cpp")]
 
-    assert drop_program([*kept, *special], "special_test") == kept
+    assert drop_programs([*kept, *special], ("special_test",)) == kept
 
 
 @pytest.mark.verifies("SWR-VER-008", technique="fault_injection", polarity="violation")
@@ -160,7 +160,7 @@ def test_likely_killers_come_first(sources: Sources) -> None:
 def test_mutants_judged_together_meet_the_fate_that_each_meets_alone(sources: Sources) -> None:
     """Mutants at different locations, none tried before: killed, surviving, rejected and equivalent mutants."""
     text = (sources.root / SOURCE).read_bytes()
-    suspects = [Suspect(mutant, frozenset(), ()) for mutant in make_mutants(SOURCE, text)]
+    suspects = [Suspect(mutant) for mutant in make_mutants(SOURCE, text)]
     original = Baseline(sources, sources.root / "work", 2, TIMEOUT_S)
     together = Bench(original, "together")
     alone = Bench(original, "alone")
@@ -182,11 +182,11 @@ def test_mutants_that_make_up_for_each_other_are_no_kills(sources: Sources) -> N
     (sources.folder / "tests" / "limit_test.cpp").write_text(test, encoding="utf-8")
     more = [mutant for mutant in make_mutants(SOURCE, text) if "return 2 + 1" in mutant.get_change(text)[1]]
     more += [mutant for mutant in make_mutants(SOURCE, text) if "return 1 + 2" in mutant.get_change(text)[1]]
-    suspects = [Suspect(mutant, frozenset(), ()) for mutant in more]
+    suspects = [Suspect(mutant) for mutant in more]
 
     results = judge_together(Bench(Baseline(sources, sources.root / "work", 1), "bench"), suspects, {SOURCE: text})
 
-    assert [result.verdict for result in results] == [SURVIVED, SURVIVED]
+    assert results == [Result(mutant, SURVIVED) for mutant in more]
 
 
 @pytest.mark.verifies("SWR-VER-005", technique="interface")
@@ -199,7 +199,7 @@ def test_suspect_has_passed_the_likely_tests_only(sources: Sources) -> None:
     text = (sources.root / SOURCE).read_bytes()
     survivor = next(mutant for mutant in make_mutants(SOURCE, text) if "value <= calc" in mutant.get_change(text)[1])
 
-    suspect = screen(Bench(original, "bench"), survivor, {SOURCE: text})
+    suspect = screen(Bench(original, "bench"), Suspect(survivor), {SOURCE: text})
 
     assert isinstance(suspect, Suspect)
     assert (len(suspect.passed), [unit.path for unit in suspect.differing]) == (LIKELY, ["src/limit.cpp"])

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from verification.mutation.operators import Mutant
@@ -25,6 +25,7 @@ INVALID = "does not compile"
 EQUIVALENT = "same object code"
 
 LIKELY = 4  # number of tests that try a mutant alone
+LIKELY_CASES = 12  # the same for cases of a campaign, which need only one program
 COMPANY = 20  # mutants that are tried together
 
 # The compiler evaluates tables and their checks. A mutant that such a check rejects is killed by the check.
@@ -33,6 +34,8 @@ COMPILE_TIME_CHECK = re.compile(
     r"|must be initialized by a constant expression|is not a constant expression"
 )
 FAILED_CASE = re.compile(r"^\[  FAILED  \] (\w[\w/]*\.[\w/]+)", re.MULTILINE)
+BY_COMPILER = "compiler, "  # killer, before the unit
+BY_CAMPAIGN = "campaign/"  # killer, before the case
 CASES_FAILED = 1  # exit status of a test program that ran to its end
 AT_ONCE = ("--gtest_fail_fast",)
 FIRST_ERROR = re.compile(r"error: (?P<text>[^\n]*)")
@@ -46,14 +49,22 @@ class Result:
     verdict: str
     killer: str = ""
 
+    @property
+    def is_by_campaign(self) -> bool:
+        return self.killer.startswith(BY_CAMPAIGN)
+
+    @property
+    def is_by_compiler(self) -> bool:
+        return self.killer.startswith(BY_COMPILER)
+
 
 @dataclass(frozen=True)
 class Suspect:
     """A mutant that has passed the likely tests alone, and the units whose objects it changed."""
 
     mutant: Mutant
-    passed: frozenset[str]
-    differing: tuple[Unit, ...]
+    passed: frozenset[str] = frozenset()
+    differing: tuple[Unit, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -72,8 +83,9 @@ class Trial:
         """@param mutants at different locations."""
         self._bench = bench
         self._texts = apply(mutants, sources)
-        self._objects = bench.folder / ("alone" if len(mutants) == 1 else "together")
-        self._objects.mkdir(exist_ok=True)
+        self._is_alone = len(mutants) == 1
+        self._objects = bench.baseline.get_folder(mutants[0]) if self._is_alone else bench.folder / "together"
+        self._objects.mkdir(parents=True, exist_ok=True)
         self._left = {unit.path: unit for unit in bench.baseline.find_units(self._texts)}
         is_header = any(file.endswith(".hpp") for file in self._texts)
         self._bound = {unit.path for unit in bench.baseline.find_bound()} if is_header else set()
@@ -106,11 +118,12 @@ class Trial:
             return None
         self._bench.put(self._texts)
         output = self._objects / (unit.path.replace("/", "_") + ".o")
-        status, words = self._bench.compile(unit, output)
-        if status != 0:
-            error = FIRST_ERROR.search(words)
-            is_check = error is not None and COMPILE_TIME_CHECK.search(error["text"])
-            return Fate(KILLED, f"compiler, {unit.path}") if is_check else Fate(INVALID)
+        if not (self._is_alone and output.exists()):
+            status, words = self._bench.compile(unit, output)
+            if status != 0:
+                error = FIRST_ERROR.search(words)
+                is_check = error is not None and COMPILE_TIME_CHECK.search(error["text"])
+                return Fate(KILLED, f"{BY_COMPILER}{unit.path}") if is_check else Fate(INVALID)
         del self._left[unit.path]
         if output.read_bytes() != self._bench.baseline.get_object(unit).read_bytes():
             self._changed[unit.path] = output
@@ -132,27 +145,31 @@ def apply(mutants: Sequence[Mutant], sources: Mapping[str, bytes]) -> dict[str, 
     return texts
 
 
-def screen(bench: Bench, mutant: Mutant, sources: Mapping[str, bytes]) -> Result | Suspect:
-    """Tries `mutant` alone by its most likely tests."""
+def screen(bench: Bench, suspect: Suspect, sources: Mapping[str, bytes], stage: int = 0) -> Result | Suspect:
+    """Tries `suspect` alone by its most likely tests of a stage."""
+    mutant = suspect.mutant
     trial = Trial(bench, (mutant,), sources)
     passed: set[str] = set()
-    for test in bench.baseline.order_tests((mutant.file,)):
+    for test in bench.baseline.order_tests((mutant.file,), stage):
         if not trial.concerns(test):
             continue
         if fate := trial.run(test, AT_ONCE):
             return _note(bench, mutant, fate, test)
         passed.add(test.path)
-        if len(passed) == LIKELY:
+        if len(passed) == (LIKELY_CASES if test.case else LIKELY):
             break
-    return Suspect(mutant, frozenset(passed), tuple(trial.differing))
+    return Suspect(mutant, suspect.passed | passed, tuple(dict.fromkeys((*suspect.differing, *trial.differing))))
 
 
-def judge_together(bench: Bench, suspects: Sequence[Suspect], sources: Mapping[str, bytes]) -> list[Result]:
-    """Tries `suspects` together by all tests that they have not passed yet. @return results in the order of `suspects`."""
+def judge_together(bench: Bench, suspects: Sequence[Suspect], sources: Mapping[str, bytes], stage: int = 0) -> list[Result | Suspect]:
+    """Tries `suspects` together by all tests of a stage that they have not passed yet. @return results in the order of `suspects`; suspects
+    that survive another than the last stage."""
     court = Court(bench, suspects, sources)
     files = {suspect.mutant.file for suspect in suspects}
-    for test in bench.baseline.order_tests(files):
+    for test in bench.baseline.order_tests(files, stage):
         court.try_all(test)
+    if stage < len(bench.baseline.stages) - 1:
+        return court.adjourn()
     for unit in bench.baseline.find_units(files):
         if not unit.is_test:
             court.compile_all(unit)
@@ -184,7 +201,14 @@ class Court:
         if self._alive:
             self._decide(self._alive, unit, self._together.compile(unit), lambda trial: trial.compile(unit))
 
-    def close(self) -> list[Result]:
+    def adjourn(self) -> list[Result | Suspect]:
+        """@return the results of the killed ones, and the others with all units that differ in one of them."""
+        self._keep(self._together.differing)
+        alive = {suspect.mutant: replace(suspect, differing=tuple(dict.fromkeys((*suspect.differing, *self._differing.values()))))
+                 for suspect in self._alive}  # fmt: skip
+        return [alive.get(suspect.mutant) or self._results[suspect.mutant] for suspect in self._suspects]
+
+    def close(self) -> list[Result | Suspect]:
         """@return the results of all suspects."""
         self._keep(self._together.differing)
         for suspect in self._alive:
@@ -247,6 +271,6 @@ def _fits(suspect: Suspect, company: Sequence[Suspect]) -> bool:
 
 
 def _note(bench: Bench, mutant: Mutant, fate: Fate, unit: Unit) -> Result:
-    if unit.is_test and fate.verdict == KILLED:
+    if (unit.is_test or unit.case) and fate.verdict == KILLED and not fate.killer.startswith(BY_COMPILER):
         bench.baseline.note_kill(mutant.file, unit)
     return Result(mutant, fate.verdict, fate.killer)

@@ -183,6 +183,8 @@ def long_steps() -> tuple[Step, ...]:
         Step(name="long tests", commands=((*PYTEST, "-m", "long", *(f"verification/{folder}" for folder in ("hil", "mutation", "proofs", "safe_state"))),),
              needs=(BUILD,), result="long-tests.xml", tier=Tier.ALL),
         Step(name=f"fuzz {LONG_FUZZ_S} s each", commands=(make_fuzz_command(LONG_FUZZ_S),), tier=Tier.ALL),
+        Step(name="mutants of the example arm", commands=((*COMMAND, "mutate", "examples/safe_arm", "--sample", "400", "--jobs", "{jobs}"),),
+             tier=Tier.ALL),
         Step(name="10,000 wrong controllers",
              commands=(("env", "MAMORI_CONTROLLERS=10000", "{build}/examples/safe_arm/safe_arm_controllers_test", "--gtest_filter=*NoneExceeds*"),),
              needs=(BUILD,), tier=Tier.ALL),

@@ -11,7 +11,7 @@ from verification.mutation.equivalent import Row
 from verification.mutation.operators import Mutant
 from verification.mutation.run import Report, Selection, Tally, make_plan, try_mutants
 from verification.mutation.sources import Sources, Unit
-from verification.mutation.trial import Result, judge_together, screen
+from verification.mutation.trial import Result, Suspect, judge_together, screen
 from verification.mutation.workbench import Bench
 
 # For a test of a few milliseconds. A mutant runs the loop in the wrong direction; its 64-bit counter never reaches the end in time.
@@ -60,7 +60,7 @@ def make_sources(root: Path) -> Sources:
         (root / name).write_text(text, encoding="utf-8")
     flags = (*FLAGS, f"-I{root / 'kernel' / 'include'}")
     units = tuple(Unit(path, flags) for path in ("src/limit.cpp", "tests/limit_test.cpp"))
-    return Sources(root, units, prefix_header="gtest/gtest.h")
+    return Sources(root, units, prefix_headers=("<gtest/gtest.h>",))
 
 
 def run_all(sources: Sources, *rows: Row, file: str = SOURCE, line: int | None = None) -> Report:
@@ -76,8 +76,10 @@ def run_all(sources: Sources, *rows: Row, file: str = SOURCE, line: int | None =
 
 def try_alone(bench: Bench, mutant: Mutant, source: bytes) -> Result:
     sources = {mutant.file: source}
-    tried = screen(bench, mutant, sources)
-    return tried if isinstance(tried, Result) else judge_together(bench, (tried,), sources)[0]
+    tried = screen(bench, Suspect(mutant), sources)
+    result = tried if isinstance(tried, Result) else judge_together(bench, (tried,), sources)[0]
+    assert isinstance(result, Result)
+    return result
 
 
 def find(report: Report, before: str, after: str) -> Result:
