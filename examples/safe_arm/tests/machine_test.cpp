@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goal: the simulated operator pushes the buttons when the fault plan needs it, and at no other time. Method:
+// the begin and the end of each push within a run, with the faults that differ.
+#include "machine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "arm_limits.hpp"
+#include "mamori/trace/verifies.hpp"
+
+namespace safe_arm {
+namespace {
+
+using mamori::Duration;
+using mamori::Instant;
+using mamori::sim::FaultKind;
+using namespace mamori::verification;
+using Times = std::vector<std::int64_t>;
+
+/// Milliseconds at which a button changes, within 3 s. The fault is demanded at 1 s.
+Times list_changes(FaultKind kind, bool Buttons::* button) {
+    mamori::sim::FaultPlan fault{};
+    fault.kind = kind;
+    fault.at = 1000_ms;
+    Times changes;
+    bool was_pushed = false;
+    for (std::int64_t ms = 0; ms < 3000; ++ms) {
+        const bool is_pushed = calc_buttons(fault, Instant{ms * 1'000'000}).*button;
+        if (is_pushed != was_pushed) {
+            changes.push_back(ms);
+        }
+        was_pushed = is_pushed;
+    }
+    return changes;
+}
+
+TEST(MachineTest, OperatorStartsOnceAndNeverResets) {
+    verifies("SWR-SAF-032");
+    for (const FaultKind kind : {FaultKind::kNone, FaultKind::kPowerLoss, FaultKind::kStartStuck}) {
+        EXPECT_EQ(list_changes(kind, &Buttons::start), (Times{250, 300}));
+        EXPECT_EQ(list_changes(kind, &Buttons::reset), Times{});
+    }
+}
+
+TEST(MachineTest, OperatorStartsAgainAfterOwnStopAndResetsOneThatNeedsIt) {
+    verifies("SWR-SAF-033");
+    for (const FaultKind kind : {FaultKind::kEmergencyStop, FaultKind::kEnablingSqueezed}) {
+        EXPECT_EQ(list_changes(kind, &Buttons::start), (Times{250, 300, 2400, 2450}));
+        EXPECT_EQ(list_changes(kind, &Buttons::reset), (Times{2000, 2050}));
+    }
+    for (const FaultKind kind :
+         {FaultKind::kProtectiveStop, FaultKind::kEnablingReleased, FaultKind::kRunReleased}) {
+        EXPECT_EQ(list_changes(kind, &Buttons::start), (Times{250, 300, 2400, 2450}));
+        EXPECT_EQ(list_changes(kind, &Buttons::reset), Times{});
+    }
+}
+
+TEST(MachineTest, CreepingBrakeIsSeenBeforeTheFirstStart) {
+    verifies("SWR-SAF-034");
+    EXPECT_EQ(list_changes(FaultKind::kBrakeCreep, &Buttons::start), (Times{2400, 2450}));
+}
+
+}  // namespace
+}  // namespace safe_arm
