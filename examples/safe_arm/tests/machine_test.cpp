@@ -9,6 +9,7 @@
 
 #include "arm_limits.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "safe_arm_system.hpp"
 
 namespace safe_arm {
 namespace {
@@ -55,6 +56,11 @@ TEST(MachineTest, OperatorStartsAgainAfterOwnStopAndResetsOneThatNeedsIt) {
         EXPECT_EQ(list_changes(kind, &Buttons::start), (Times{250, 300, 2400, 2450}));
         EXPECT_EQ(list_changes(kind, &Buttons::reset), Times{});
     }
+}
+
+TEST(MachineTest, ChannelHoldsBackTheMessagesOf64Frames) {
+    verifies("SWR-SAF-008");
+    EXPECT_EQ(kChannelCapacity, 64U);
 }
 
 TEST(MachineTest, CreepingBrakeIsSeenBeforeTheFirstStart) {
