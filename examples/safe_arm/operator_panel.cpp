@@ -28,12 +28,9 @@ using mamori::safety::ArmInputs;
 using mamori::safety::Discrepancy;
 
 bool TwoChannelSwitch::step(const std::array<bool, 2U>& is_closed, Instant now) noexcept {
-    const bool had_failed = has_failed();
-    const Discrepancy result = timer_.step(is_closed[0] != is_closed[1], now);
-    if (!had_failed && result == Discrepancy::kLatched) {
-        has_opened_ = false;
-    }
-    has_opened_ = has_opened_ || (!is_closed[0] && !is_closed[1]);
+    const bool has_opened_before = has_failed() && has_opened_;
+    static_cast<void>(timer_.step(is_closed[0] != is_closed[1], now));
+    has_opened_ = has_opened_before || (!is_closed[0] && !is_closed[1]);
     return is_closed[0] && is_closed[1];
 }
 

@@ -37,6 +37,7 @@ WIRING = {
     "V a{1, 2, 3};": ["{2, 1, 3}", "{1, 3, 2}", "{2, 3}", "{1, 3}", "{1, 2}", "{1, 4, 3}", "{1, 2, 1}", "{1, 2, 6}"],
     "void f() { set(a.x, a.y); }": ["(a.y, a.x)", "(a.y, a.y)", "(a.x, a.x)"],
     "void f() { set(a, 1U, g()); }": [],
+    "MAMORI_FIELDS(A, first, second)": [],
     "auto t = mamori::parts(\n    react(a),\n    react(b));": ["(\n    \nreact(b))", "(\n    react(a)\n)"],
     "auto t = faults<F::kA, F::kB, F::kC>();": ["<F::kB, F::kA, F::kC>", "<F::kA, F::kC, F::kB>", "<F::kB, F::kC>", "<F::kA, F::kC>",
                                              "<F::kA, F::kB>", "<F::kB, F::kB, F::kC>", "<F::kA, F::kC, F::kC>", "<F::kA, F::kB, F::kA>"],

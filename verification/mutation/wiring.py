@@ -21,6 +21,7 @@ SKIPPED = frozenset(("comment", "preproc_include", "preproc_def", "preproc_funct
                      "template_parameter_list", "operator_name", "attribute_declaration", "using_declaration"))  # fmt: skip
 LISTS = frozenset(("argument_list", "initializer_list", "template_argument_list"))
 TABLES = re.compile(r"(?:\w+::)*(?:system|parts)")  # calls whose arguments are rows, at any depth
+FIELDS = "MAMORI_FIELDS("  # both ends of a message use the same order
 INTEGER = re.compile(r"([0-9']+)([uUlL]*)")
 REAL = re.compile(r"[0-9.]+(?:e-?[0-9]+)?")
 ENUMERATOR = re.compile(r"((?:\w+::)+)(k[A-Z]\w*)")
@@ -64,6 +65,8 @@ def _scale(node: Node) -> Iterator[Change]:
 
 
 def _exchange_neighbours(node: Node) -> Iterator[Change]:
+    if node.parent is not None and _text(node.parent).startswith(FIELDS):
+        return
     for first, second in zip(elements := _list_elements(node), elements[1:], strict=False):
         between = _between(node, first.end_byte, second.start_byte)
         if _text(first) != _text(second) and _find_kind(first) == _find_kind(second) != "call_expression":

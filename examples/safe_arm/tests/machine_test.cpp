@@ -5,10 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 #include "arm_limits.hpp"
+#include "mamori/simbody_sim/arm_model.hpp"
+#include "mamori/simbody_sim/arm_plant.hpp"
 #include "mamori/trace/verifies.hpp"
+#include "run_record.hpp"
 #include "safe_arm_system.hpp"
 
 namespace safe_arm {
@@ -55,6 +59,19 @@ TEST(MachineTest, OperatorStartsAgainAfterOwnStopAndResetsOneThatNeedsIt) {
          {FaultKind::kProtectiveStop, FaultKind::kEnablingReleased, FaultKind::kRunReleased}) {
         EXPECT_EQ(list_changes(kind, &Buttons::start), (Times{250, 300, 2400, 2450}));
         EXPECT_EQ(list_changes(kind, &Buttons::reset), Times{});
+    }
+}
+
+TEST(MachineTest, PlantWhoseStateIsNoNumberIsReported) {
+    verifies("SWR-SAF-016", Technique::kFaultInjection, Polarity::kViolation);
+    mamori::sim::LoadedModel loaded = mamori::sim::load_arm_model(SAFE_ARM_MODEL_FILE);
+    RunRecord record{{}, *loaded.model, {}, Instant{}, Instant{}};
+    for (const double friction : {0.05, std::numeric_limits<double>::infinity()}) {
+        loaded.model->joints[6].viscous_friction_nm_s_rad = friction;
+        mamori::sim::ArmPlant plant{*loaded.model};
+        Machine sut{plant, virtual_host, {}, record};
+        sut.apply(0U, Instant{}, kFrame);
+        EXPECT_EQ(sut.is_plant_sound(), friction < 1.0);
     }
 }
 

@@ -235,6 +235,17 @@ TEST_F(PositionEvidenceTest, TheSagWhileTheBrakesEngageAndAMovementUnderTorqueAr
     EXPECT_EQ(move(1U, 0.0, 1000).faults, 0U);
 }
 
+TEST_F(PositionEvidenceTest, TheRestBeginsWithTheFrameInWhichTheBrakesMustHold) {
+    verifies("SWR-SAF-034", Technique::kBoundaryValues, Polarity::kViolation);
+    const auto engaging = static_cast<int>(kBrakeFeedbackTime.ns / kFrame.ns);
+    step();
+    rest();
+    move(6U, 0.0, engaging - 1);
+    EXPECT_EQ(move(6U, 6.0, 1).faults, 0U);
+    EXPECT_EQ(move(6U, 0.0, 50).faults, 0U);
+    EXPECT_EQ(move(6U, 6.0, 1).faults, to_bit(ArmFault::kMovementAtRest));
+}
+
 TEST_F(PositionEvidenceTest, AResetBeginsTheRestAgain) {
     verifies("SWR-SAF-034", Technique::kStateTransition);
     rest();
