@@ -40,13 +40,13 @@ def connection(source: int, out: str, sink: int, into: str, **more: object) -> R
 
 def make_table(**changes: object) -> Row:
     return {
-        "schema": "mamori.table/4", "frame_ns": 20 * MS, "abort_policy": "spec_only",
+        "schema": "mamori.table/5", "frame_ns": 20 * MS, "abort_policy": "spec_only",
         "windows": [window("check", 6 * MS), window("drive", MS, 20 * MS), window("rtc_life_cycle_mnt", 8 * MS, kind="system")],
         "components": [component("wheel", 0, out=24, out_2=8), component("monitor", 0, **{"in": 24, "in-2": 8}), component("motor", 1, **{"in": 24}),
                        component("supervise", 2)],
         "connections": [connection(0, "out", 1, "in", way="same_window"), connection(0, "out_2", 1, "in-2", way="queue"),
                         connection(0, "out", 2, "in", fresh_within_ns=20 * MS)],
-        "faults": [], "reactions": [], "modes": [], "transitions": [], "parameters": [], "configuration_sets": [], "findings": [], **changes,
+        "faults": [], "reactions": [], "safety": None, "modes": [], "transitions": [], "parameters": [], "configuration_sets": [], "findings": [], **changes,
     }  # fmt: skip
 
 

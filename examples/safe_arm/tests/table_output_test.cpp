@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goal: the example's table leaves the program as it is, with the names and reactions of its faults and its
-// safety rows. Method: read back
-// as JSON.
+// safety rows. Method: read back as JSON.
 #include "table_output.hpp"
 
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "arm_faults.hpp"
+#include "arm_limits.hpp"
 #include "mamori/trace/verifies.hpp"
 #include "safe_arm_system.hpp"
 
