@@ -58,7 +58,8 @@ def test_second_run_installs_nothing(box: Box) -> None:
 @pytest.mark.parametrize(
     ("words", "wanted", "unwanted"),
     [(("trace", "check"), "python3-venv", "cmake"), (("log", "run.rec"), "python3-venv", "cmake"), (("e2e",), "python3-venv", "cmake"),
-     (("constraint", "x<1"), "python3-venv", "cmake"), (("lcm", "types", "x"), "python3-venv", "cmake"),
+     (("constraint", "x<1"), "python3-venv", "cmake"), (("profile", "check", "x"), "python3-venv", "cmake"),
+     (("lcm", "types", "x"), "python3-venv", "cmake"),
      (("build",), "cmake", "cppcheck"), (("test",), "cppcheck", "strace"),
      (("build", "--preset", "host-asan"), "clang-19", "git"), (("bench",), "valgrind", "cppcheck"),
      (("mutate",), "clang-19", "git"), (("fuzz",), "libclang-rt-19-dev", "git"),

@@ -34,7 +34,7 @@ with hold_lock(Path(sys.argv[1]), "./mamori test --quick"):
 TIMEOUT_S = 20.0
 READERS = [
     ("new", "x"), ("log", "x"), ("lcm", "types", "x", "--out", "y"), ("campaign", "x"),
-    ("table", "x"), ("constraint", "x<1"), ("e2e", "--profile", "1", "--length", "8", "--rate", "1", "--pe", "0.01"),
+    ("table", "x"), ("constraint", "x<1"), ("profile", "check", "x"), ("e2e", "--profile", "1", "--length", "8", "--rate", "1", "--pe", "0.01"),
     ("bench", "--list"), ("mutate", "--list"),
 ]  # fmt: skip
 WRITERS = [("demo",), ("run",), ("test",), ("build",), ("verify",), ("timing", "x"), ("cost", "x"), ("bench",), ("mutate",), ("fuzz",),

@@ -23,7 +23,7 @@ from mamori_trace.base.system_error import describe
 GROUP = "mamori.commands"
 TRACE = "trace"
 ORDER = ("demo", "run", "campaign", "test", "build", "verify", "new", TRACE, "log",
-         "bench", "timing", "cost", "e2e", "table", "constraint", "mutate", "fuzz", "prove")  # fmt: skip
+         "bench", "timing", "cost", "e2e", "table", "constraint", "profile", "mutate", "fuzz", "prove")  # fmt: skip
 """Of the overview. Other commands follow in alphabetical order."""
 ABOUT = ("Mamori is a safety-oriented real-time middleware kernel for robots. Its tools turn a build into evidence.\n\n"
          "./mamori COMMAND --help shows the options of a command.")  # fmt: skip
