@@ -51,6 +51,8 @@ def _format_unit(unit: etree._Element) -> str | None:
     names = [get_local_name(part) for part in parts]
     if name == "Or" and len(parts) == len(rule) and set(names) == {"propertyIsEqualTo"}:
         return f"({','.join(map(_get_literal, parts))})"
+    if len(names) == 2 and names[0] in UPPER:
+        parts, names = parts[::-1], names[::-1]
     if name == "And" and len(parts) == len(rule) == 2 and names[0] in LOWER and names[1] in UPPER:
         return f"{_get_literal(parts[0])}{LOWER[names[0]]}x{UPPER[names[1]]}{_get_literal(parts[1])}"
     return None

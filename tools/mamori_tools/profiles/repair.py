@@ -47,6 +47,7 @@ class _Repair:
     def __init__(self, table: SchemaTable) -> None:
         self.found: list[Deviation] = []
         self._table = table
+        self._ports: dict[tuple[str | None, str], etree._Element] = {}
 
     def prepare(self, root: etree._Element) -> etree._Element:
         """Declares all prefixes at the root, because `xsi:type` needs them, and renames the root."""
@@ -163,16 +164,14 @@ class _Repair:
         is_known = not any(self._table.is_derived(own.name, name) for name in NO_SUBSTITUTE) and element.getparent() is not None
         return SUBSTITUTES.get(local) if is_known or local.endswith("Date") else None
 
-    @staticmethod
-    def _list_ports(connector: etree._Element) -> list[etree._Element]:
+    def _list_ports(self, connector: etree._Element) -> list[etree._Element]:
         """The ports that the connector names, as far as the components have them. Names of ports can begin with that of their instance."""
-        wanted = []
-        for end in connector.iterchildren("{*}sourceDataPort", "{*}targetDataPort"):
-            values = {name.rpartition("}")[2]: value for name, value in end.attrib.items()}
-            wanted.append((values.get("instanceName"), str(values.get("portName")).rpartition(".")[2]))
-        root = connector.getroottree().getroot()
-        return [port for port in root.iterfind("{*}Components/{*}DataPorts")
-                if (_get_local(port.getparent(), "instanceName"), str(_get_local(port, "name")).rpartition(".")[2]) in wanted]  # fmt: skip
+        if not self._ports:
+            for port in connector.getroottree().getroot().iterfind("{*}Components/{*}DataPorts"):
+                self._ports[_get_local(port.getparent(), "instanceName"), str(_get_local(port, "name")).rpartition(".")[2]] = port
+        keys = [(_get_local(end, "instanceName"), str(_get_local(end, "portName")).rpartition(".")[2])
+                for end in connector.iterchildren("{*}sourceDataPort", "{*}targetDataPort")]  # fmt: skip
+        return [self._ports[key] for key in keys if key in self._ports]
 
     def _find_name(self, name: str, known: Iterable[str], is_free: Callable[[str], bool]) -> str | None:
         """The known name that `name` means: of another prefix, another version, another case, or with a typing error."""

@@ -21,7 +21,10 @@ from mamori_trace.base.errors import InputError
 XSD = "http://www.w3.org/2001/XMLSchema"
 OLD_PREFIX = {"0.1": "V1", "0.2": "V2"}
 """Published files of older versions have this prefix if files of a newer version are in the same folder. Their imports do not have it."""
-FAMILY_FILE = {"rtc": "RtcProfile_ext.xsd", "rts": "RtsProfile_ext.xsd"}
+MAIN_FILE = {"rtc": "RtcProfile_ext.xsd", "rts": "RtsProfile_ext.xsd"}
+BASIC_FILE = {"rtc": "RtcProfile_basic.xsd", "rts": "RtsProfile.xsd"}
+MARKS = {"rtc": {"0.1": b"subscriprionType", "0.3": b"EventPort"}, "rts": {"0.1": b"RTSystemProfile"}}
+"""Text by which a published file shows its version. A file without a mark has version 0.2."""
 
 
 @dataclass(frozen=True)
@@ -70,18 +73,26 @@ def _load_own(family: str, version: str) -> etree.XMLSchema:
 
 @cache
 def _load_published(family: str, version: str, folder: Path) -> etree.XMLSchema:
-    prefix = OLD_PREFIX.get(version, "")
-    texts = {}
-    for path in sorted(folder.glob("Rt?Profile*.xsd")):
-        own = path.with_name(prefix + path.name)
-        texts[path.name] = (own if own.is_file() else path).read_bytes()
-    main = FAMILY_FILE[family]
-    if main not in texts:
-        raise InputError(f"has no {main}; specify the folder with the published schema files", folder)
+    sets = [paths for own in [folder, *sorted(folder.glob("*/"))] if (paths := _list_schema_files(family, version, own))]
+    if not sets:
+        raise InputError(f"has no {MAIN_FILE[family]} of version {version}; specify the folder with the published schema files", folder)
+    paths = min(sets, key=lambda own: len({path.name == name for name, path in own.items()}))  # the first set that is not mixed
     try:
-        return _compile(texts, main)
+        return _compile({name: path.read_bytes() for name, path in paths.items()}, MAIN_FILE[family])
     except (etree.XMLSyntaxError, etree.XMLSchemaParseError) as error:
-        raise InputError(f"not a usable schema: {error}", folder / main) from error
+        raise InputError(f"not a usable schema: {error}", paths[MAIN_FILE[family]]) from error
+
+
+def _list_schema_files(family: str, version: str, folder: Path) -> dict[str, Path]:
+    """The published files of a version in one folder, by the name in imports; empty if the folder has another version."""
+    paths = {path.name: path for path in sorted(folder.glob(f"{family.title()}Profile*.xsd"))}
+    for name, path in paths.items():
+        old = path.with_name(OLD_PREFIX.get(version, "") + name)
+        paths[name] = old if old.is_file() else path
+    basic = paths.get(BASIC_FILE[family])
+    content = b"" if basic is None else basic.read_bytes()
+    found = next((own for own, mark in MARKS[family].items() if mark in content), version if basic is None else "0.2")
+    return paths if MAIN_FILE[family] in paths and found == version else {}
 
 
 def _make_document(table: SchemaTable, prefix: str) -> bytes:

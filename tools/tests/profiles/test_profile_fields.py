@@ -87,7 +87,8 @@ EQUAL = [make(compare_with("propertyIsEqualTo", value)) for value in "ab"]
     (f"<rtc:Constraint><rtc:ConstraintListType>{ABOVE}{BELOW}</rtc:ConstraintListType></rtc:Constraint>", "x>1,x<=2"),
     (f"<rtc:Constraint><rtc:ConstraintHashType>{make(compare_with('propertyIsEqualTo', '1'), 'k')}</rtc:ConstraintHashType></rtc:Constraint>", "{k:1}"),
     (f"<rtc:Constraint><rtc:ConstraintHashType>{ABOVE}</rtc:ConstraintHashType></rtc:Constraint>", None),
-    (make(f"<rtc:Not>{ABOVE}</rtc:Not>"), None), (make(f"<rtc:And>{BELOW}{ABOVE}</rtc:And>"), None), (make(f"<rtc:Or>{ABOVE}{EQUAL[0]}</rtc:Or>"), None),
+    (make(f"<rtc:Not>{ABOVE}</rtc:Not>"), None), (make(f"<rtc:And>{BELOW}{ABOVE}</rtc:And>"), "1<x<=2"),
+    (make(f"<rtc:And>{BELOW}{BELOW}</rtc:And>"), None), (make(f"<rtc:Or>{ABOVE}{EQUAL[0]}</rtc:Or>"), None),
     (f"<rtc:Constraint><rtc:ConstraintListType>{make(f'<rtc:Not>{ABOVE}</rtc:Not>')}</rtc:ConstraintListType></rtc:Constraint>", None),
 ])  # fmt: skip
 def test_a_constraint_is_shown_in_the_notation(xml: str, text: str | None) -> None:

@@ -104,8 +104,21 @@ def test_a_folder_without_usable_schema_is_rejected(tmp_path: Path, content: str
         load_profile(write(tmp_path, RTC_03), schema=folder)
 
 
-def find_published(family: str, version: str) -> Path:
-    return SHARED / "schema" / ("master" if (family, version) in (("rtc", "0.3"), ("rts", "0.2")) else "releng_1_1")
+@pytest.mark.verifies("SWR-PFL-003")
+def test_the_schema_set_of_the_version_is_used(tmp_path: Path) -> None:
+    schema = '<xsd:schema xmlns:xsd="http://www.w3.org/2001/XMLSchema" targetNamespace="http://www.openrtp.org/namespaces/rtc"><!--{}-->{}</xsd:schema>'
+    valid, invalid = '<xsd:element name="RtcProfile"/>', '<xsd:element name="Other"/>'
+    for name, mark, basic in (("new/", "EventPort", invalid), ("new/V2", "", invalid), ("old/", "", valid), ("old/V1", "subscriprionType", valid)):
+        (tmp_path / name[:3]).mkdir(exist_ok=True)
+        write(tmp_path, schema.format(mark, basic), f"{name}RtcProfile_basic.xsd")
+    for name in ("new/", "old/", "old/V1"):
+        write(tmp_path, schema.format("", '<xsd:include schemaLocation="RtcProfile_basic.xsd"/>'), f"{name}RtcProfile_ext.xsd")
+
+    texts = [f'<r:RtcProfile xmlns:r="http://www.openrtp.org/namespaces/rtc" r:version="{version}"/>' for version in list_versions("rtc")]
+    verdicts = [load_profile(write(tmp_path, text), schema=tmp_path).violations == [] for text in texts]
+    assert verdicts == [True, True, False]
+    with pytest.raises(InputError, match=r"old: has no RtcProfile_ext\.xsd of version 0\.3"):
+        load_profile(write(tmp_path, RTC_03), schema=tmp_path / "old")
 
 
 @pytest.mark.skipif(not SHARED.is_dir(), reason=f"{SHARED} not found")
@@ -113,12 +126,12 @@ def test_public_and_changed_profiles_have_the_verdict_of_the_published_schemas()
     verdicts = {True: 0, False: 0}
     for path in sorted([*SHARED.glob("rtc/*.xml"), *SHARED.glob("rts/*.xml"), *SHARED.glob("rts/*.rtsys")]):
         profile = load_profile(path)
-        assert profile.violations == load_profile(path, schema=find_published(profile.family, profile.version)).violations, path
+        assert profile.violations == load_profile(path, schema=SHARED / "schema").violations, path
         for seed in SEEDS:
             version = list_versions(profile.family)[seed % len(list_versions(profile.family))]
             root = mutate(profile.root, load_table(profile.family, version), seed)
             own = find_violations(root, profile.family, version)
-            published = find_violations(root, profile.family, version, find_published(profile.family, version))
+            published = find_violations(root, profile.family, version, SHARED / "schema")
 
             assert bool(own) == bool(published), (path, version, seed, own or published)
             verdicts[not own] += 1
