@@ -14,7 +14,7 @@ from mamori_tools.profiles.attribute_value import DATE
 from mamori_tools.profiles.profile import Profile
 from mamori_tools.profiles.schema_table import XSI_TYPE
 from mamori_tools.profiles.view import RtsView
-from mamori_tools.profiles.xml_file import format_xml
+from mamori_tools.profiles.xml_file import canonicalize, format_xml, parse_xml
 from mamori_tools.profiles.yaml_twin import expect_type, format_yaml, list_losses, list_names
 from mamori_trace.base.errors import InputError
 
@@ -34,8 +34,9 @@ def convert(profile: Profile, target: Path) -> tuple[bytes, list[str]]:
         return format_yaml(profile.root, profile.table).encode(), list_losses(profile.root)
     if target.suffix == ".conf":
         raise InputError(f"an {profile.title} is not an rtc.conf; specify a file .xml", target)
-    is_same = profile.form == "xml" and not profile.deviations
-    return profile.data if is_same else format_xml(profile.root.getroottree()), []
+    tree = profile.root.getroottree()
+    is_same = profile.form == "xml" and canonicalize(parse_xml(profile.data, profile.path)) == canonicalize(tree)
+    return profile.data if is_same else format_xml(tree), []
 
 
 def make_portable(profile: Profile) -> list[str]:

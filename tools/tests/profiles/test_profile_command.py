@@ -113,6 +113,7 @@ def test_convert_of_a_tolerated_file_names_what_it_changed(folder: Path, capsys:
     assert err.splitlines()[0].startswith("mamori: wrong.xml:37: D05: ")
     assert run(capsys, "check", "right.xml")[0] == 0
     assert run(capsys, "convert", "RTS.xml", "--out", "p.xml", "--portable")[2] == "mamori: not kept: rts:creationDate: .250+09:00\nmamori: wrote p.xml\n"
+    assert run(capsys, "diff", "RTS.xml", "p.xml")[1] == "~ @creationDate: 2026-01-02T03:04:05.250+09:00 -> 2026-01-02T03:04:05\n"
 
 
 @pytest.mark.verifies("SWR-PFL-010", polarity="violation")
