@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 from mamori_tools.profiles.deviation import Deviation
 
-ENTRY = re.compile(r"[ \t]*((?:\\.|[^\\:=])*?)[ \t]*([:=])[ \t]*(.*)", re.DOTALL)
+KEY = re.compile(r"((?:\\.|[^\\:=])*+)[:=][ \t]*+", re.DOTALL)
+"""Key, sign and blanks before the value. The quantifiers do not backtrack, so the time is linear."""
 LINE_END = re.compile(r"\r?\n\Z|\Z")
 MARK = "\ufeff"
 
@@ -57,10 +58,10 @@ class ConfFile:
             self._lines.append(f"{key}: {value}{line_end}")
         else:
             line = self._lines[old.first - 1]
-            match = ENTRY.match(line)
+            match = KEY.match(line)
             end = LINE_END.search(self._lines[old.last - 1])
             assert match is not None and end is not None
-            self._lines[old.first - 1 : old.last] = [f"{line[: match.start(3)]}{value}{end[0]}"]
+            self._lines[old.first - 1 : old.last] = [f"{line[: match.end()]}{value}{end[0]}"]
         self._parse()
 
     def _parse(self) -> None:
@@ -85,12 +86,12 @@ class ConfFile:
             self._add(text, first, len(self._lines))
 
     def _add(self, text: str, first: int, last: int) -> None:
-        match = ENTRY.fullmatch(text)
-        if match is None or not match[1]:
+        match = KEY.match(text)
+        if match is None or not match[1].strip():
             self.deviations.append(Deviation("D22", first, text[:40], "line ignored"))
             return
-        key = re.sub(r"\\(.)", r"\1", match[1])
+        key = re.sub(r"\\(.)", r"\1", match[1].strip(" \t"))
         if any(entry.key == key for entry in self.entries):
             self.deviations.append(Deviation("D21", first, key, "the last value counts"))
-        self.entries.append(Entry(key, match[3].rstrip(" \t"), first, last))
+        self.entries.append(Entry(key, text[match.end() :].rstrip(" \t"), first, last))
 

@@ -17,6 +17,7 @@ from mamori_trace.base.errors import InputError
 from mamori_trace.base.nearest_names import nearest_names
 
 ROOT_NAME = b"RtcProfile"
+START_BYTES = 4096
 FILES_MAX = 10000
 HIDDEN = (".", "build", "node_modules")
 """Beginnings of the names of folders that are not searched."""
@@ -77,8 +78,9 @@ def find_packages(folder: Path) -> tuple[list[Package], list[str]]:
     packages, errors = [], []
     for path in _list_files(folder):
         try:
-            if ROOT_NAME not in path.read_bytes()[:4096]:
-                continue
+            with path.open("rb") as file:
+                if ROOT_NAME not in file.read(START_BYTES).replace(b"\0", b""):  # also in UTF-16
+                    continue
             profile = load_profile(path, tolerant=True)
         except (InputError, OSError) as error:
             errors.append(str(error))

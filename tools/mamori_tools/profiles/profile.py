@@ -22,7 +22,7 @@ from mamori_trace.base.errors import InputError
 
 CONF = "conf"
 FAMILY_ROOTS = {"RtcProfile": "rtc", "RtsProfile": "rts", "RTSystemProfile": "rts"}
-YAML_START = re.compile(rb"""(#[^\n]*\n|\s|---)*["']?rtsProfile["']?\s*:""")
+YAML_START = re.compile(rb"""(#[^\n]*+\n|\s|---)*+["']?rtsProfile["']?\s*:""")
 CONF_LINE = re.compile(rb"^[ \t]*[A-Za-z_][\w.%-]*[ \t]*:", re.MULTILINE)
 IGNORED = ("D07", "D08", "D11")
 """Deviations whose content is not loaded."""

@@ -56,6 +56,14 @@ def test_a_changed_value_changes_only_its_entry(key: str, old: bytes, new: bytes
     assert conf.get_value("other") is None
 
 
+@pytest.mark.verifies("SWR-PFL-007", technique="error_guessing")
+@pytest.mark.parametrize("line", [b"a" + b" " * 300_000, b"\\" * 300_001, b"a" * 300_000], ids=("spaces", "signs", "letters"))
+def test_a_long_line_takes_no_long_time(line: bytes) -> None:
+    conf = ConfFile(line + b"\nb: 1\n")
+
+    assert conf.get_value("b" if b"\\" not in line else "\\" * 150_000 + "b") == "1"
+
+
 @pytest.mark.verifies("SWR-PFL-007")
 def test_the_first_entry_of_an_empty_file_can_be_set() -> None:
     conf = ConfFile(b"")
