@@ -27,11 +27,9 @@ PROPERTIES = {"dataType": "dataport.data_type", "interfaceType": "dataport.inter
 SUBSTITUTES = {
     "x": "0", "y": "0", "height": "-1", "width": "-1", "direction": "DOWN", "matchCase": "false", "implemented": "false",
     "creationDate": UNKNOWN_DATE, "updateDate": UNKNOWN_DATE, "defaultValue": "", "dataType": "", "interfaceType": "", "dataflowType": "",
-    "pathUri": "", "connectorId": "", "vendor": "", "category": "", "version": "", "waitTime": "0", "isRequired": "false",
+    "pathUri": "", "vendor": "", "category": "", "version": "", "isRequired": "false",
 }  # fmt: skip
 """Values of missing attributes. Drawing data and empty texts cannot be misunderstood; dates are marked by their year."""
-NO_SUBSTITUTE = {"rtc:serviceinterface"}
-"""Types whose attribute has the name of a drawing attribute."""
 ADDED_CHILDREN = ("Actions", "Location", "WaitTime")
 
 
@@ -130,7 +128,7 @@ class _Repair:
             if part.name in element.attrib:
                 self._check_value(element, part)
             elif part.is_required:
-                value = self._find_substitute(element, part, own)
+                value = self._find_substitute(element, part)
                 if value is not None:
                     element.set(part.name, value)
                     self._record("D04", element, f"{self._table.shorten(part.name)}={value!r} added")
@@ -151,7 +149,7 @@ class _Repair:
             element.set(part.name, UNKNOWN_DATE)
             self._record("D15", element, f"{short}={value!r} read as {UNKNOWN_DATE!r}")
 
-    def _find_substitute(self, element: etree._Element, part: Attribute, own: ElementType) -> str | None:
+    def _find_substitute(self, element: etree._Element, part: Attribute) -> str | None:
         local = part.name.rpartition("}")[2]
         values = {name.rpartition("}")[2]: value for name, value in element.attrib.items()}
         if local in PROPERTIES:
@@ -161,8 +159,9 @@ class _Repair:
         if local == "position":
             word = "RIGHT" if values.get("portType") == "DataOutPort" else "LEFT"
             return find_meant(word, part.type, self._table.values[part.type])
-        is_known = not any(self._table.is_derived(own.name, name) for name in NO_SUBSTITUTE) and element.getparent() is not None
-        return SUBSTITUTES.get(local) if is_known or local.endswith("Date") else None
+        if local == "version" and element.getparent() is None:
+            return self._table.version
+        return None if part.type == "direction" else SUBSTITUTES.get(local)  # the direction of an interface cannot be guessed
 
     def _list_ports(self, connector: etree._Element) -> list[etree._Element]:
         """The ports that the connector names, as far as the components have them. Names of ports can begin with that of their instance."""

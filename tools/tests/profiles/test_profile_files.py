@@ -31,7 +31,7 @@ def test_a_tree_is_written_with_the_same_canonical_form(tmp_path: Path, name: st
     assert canonicalize(parse_xml(format_xml(tree), path)) == canonicalize(parse_xml(path.read_bytes(), path))
 
 
-@pytest.mark.verifies("SWR-PFL-001")
+@pytest.mark.verifies("SWR-PFL-004", technique="equivalence_classes")
 @pytest.mark.parametrize("data", [RTC_03.encode(), RTC_03.replace("\n", "\r\n").encode(), b"\xef\xbb\xbf" + RTC_03.encode(),
                                   RTC_03.replace("UTF-8", "UTF-16").encode("utf-16"), RTC_03.replace("UTF-8", "Shift_JIS").encode("shift_jis")])  # fmt: skip
 def test_line_ends_and_encodings_do_not_change_the_content(tmp_path: Path, data: bytes) -> None:

@@ -26,7 +26,7 @@ def write(folder: Path, text: str, name: str = "profile.xml") -> Path:
     return path
 
 
-FOLLOWING = {"D02": ("D01",), "D10": ("D04",)}
+FOLLOWING = {"D02": ("D01",), "D10": ("D04",), "D14": ("D04",)}
 """Deviations of the same cause."""
 
 
@@ -67,6 +67,7 @@ FOLLOWING = {"D02": ("D01",), "D10": ("D04",)}
     (RTS_01, "RTSystemProfile", "RtsProfile", "D13", "rts:RtsProfile renamed to rts:RTSystemProfile"),
     (RTC_03, 'rtc:version="0.3"', 'rtc:version="0.2"', "D14", "marked '0.2', read as 0.3"),
     (RTC_02, 'rtc:version="0.2"', 'rtc:version="1.0"', "D14", "marked '1.0', read as 0.2"),
+    (RTC_02, ' rtc:version="0.2"', "", "D14", "marked '', read as 0.2"),
     (RTC_01, 'rtc:version="0.1"', 'rtc:version="0.3"', "D14", "marked '0.3', read as 0.1"),
     (RTC_03, '"2026-01-02T03:04:05Z"', '"2026/1/2 3:04"', "D15", "rtc:updateDate='2026/1/2 3:04' read as '2026-01-02T03:04:00'"),
     (RTC_03, '"2026-01-02T03:04:05Z"', '"2026-01-02T03:04:05+0900"', "D15",
@@ -96,6 +97,7 @@ def test_a_deviation_is_accepted_and_named(tmp_path: Path, sample: str, old: str
     (RTC_03, 'rtc:direction="Provided"', 'rtc:direction="x"'),
     (RTC_03, "<rtc:UpperBoundary>2</rtc:UpperBoundary>", ""),
     (RTS_02, 'rts:instanceName="Motor0"', ""),
+    (RTS_02, 'rts:connectorId="c1"', ""),
     (RTS_02, 'rts:sequence="1"', 'rts:sequence="first"'),
     (RTS_02, "<rts:Members ", "<rts:Other "),
     (RTS_02, "  <rts:Groups", "  <rts:TargetComponent/><rts:Groups"),
