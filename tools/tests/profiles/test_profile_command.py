@@ -182,6 +182,16 @@ def test_find_lists_the_packages_that_match_every_pattern(folder: Path, capsys: 
 
 
 @pytest.mark.verifies("SWR-PFL-012")
+def test_find_reads_packages_with_deviations_but_not_hidden_ones(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name in ("odd", ".hidden", "build"):
+        Path(name).mkdir()
+        Path(name, "RTC.xml").write_text(WRONG_RTC.replace("Motor", "Odd"), encoding="utf-8")
+    Path("odd/RTC.xml").write_text(WRONG_RTC.replace("Motor", "Odd").replace("UTF-8", "UTF-16"), encoding="utf-16")
+
+    assert run(capsys, "find", ".", "name=Odd")[:2] == (0, "RTC:Mamori:test:Odd:1.0.0  odd/RTC.xml\n")
+
+
+@pytest.mark.verifies("SWR-PFL-012")
 def test_each_key_has_values(folder: Path) -> None:
     packages, _ = find_packages(folder / "motor")
 

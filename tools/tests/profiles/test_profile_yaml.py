@@ -121,6 +121,7 @@ def test_values_keep_their_spelling_and_booleans_become_those_of_xml(tmp_path: P
 @pytest.mark.parametrize(("old", "new", "line", "text"), [
     ("pathUri: a", "pathURI: a", 8, "the key is unknown"),
     ("name: in,", "name: in, colour: red,", 13, "the key is unknown"),
+    ("pathUri: a", "pathUri: a\n        condition: {}", 9, "the key is unknown"),
     ("isRequired: Yes", "isRequired: maybe", 7, "'maybe' is not a valid value"),
     ("compositeType: None", "compositeType: All", 7, "'All' is not an element of the set"),
 ])  # fmt: skip
@@ -143,6 +144,13 @@ def test_a_file_that_is_not_the_yaml_form_is_rejected(tmp_path: Path, old: str, 
     with pytest.raises(InputError, match=text) as caught:
         load_profile(write(tmp_path, YAML.replace(old, new), "system.yaml"))
     assert caught.value.line == line
+
+
+@pytest.mark.verifies("SWR-PFL-006", technique="boundary_values", polarity="violation")
+@pytest.mark.parametrize(("levels", "message"), [(30, "a single value is expected"), (31, "nested deeper than 32 levels")])
+def test_depth_is_limited(tmp_path: Path, levels: int, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        load_profile(write(tmp_path, f"rtsProfile:\n  id: {'[' * levels}{']' * levels}\n", "system.yaml"))
 
 
 @pytest.mark.verifies("SWR-PFL-010")
