@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from datetime import datetime
 
@@ -16,7 +15,8 @@ DATE = re.compile(r"([0-9]{4})-([0-9]{2})-([0-9]{2})T([0-9]{2}):([0-9]{2}):([0-9
 LOOSE_DATE = re.compile(r"([0-9]{4})[-/.]([0-9]{1,2})[-/.]([0-9]{1,2})(?:[T ]+([0-9]{1,2}):([0-9]{1,2})(?::([0-9]{1,2})(\.[0-9]+)?)?)?"
                         r" *(Z|[+-][0-9]{2}:?[0-9]{2})?")  # fmt: skip
 BOOLEANS = {"true": "true", "yes": "true", "on": "true", "1": "true", "false": "false", "no": "false", "off": "false", "0": "false"}
-ALIKE = 0.8
+TYPING_ERRORS = {"periodoc": "periodic"}
+"""Known wrong spellings in files of other tools."""
 
 
 def is_of_type(value: str, type_: str, names: tuple[str, ...]) -> bool:
@@ -38,7 +38,7 @@ def is_of_type(value: str, type_: str, names: tuple[str, ...]) -> bool:
 
 
 def find_meant(value: str, type_: str, names: tuple[str, ...]) -> str | None:
-    """@return the nearest value of the type; None if no value is near."""
+    """@return the value of the type that differs only in case, separators or a known typing error; else None."""
     bare = value.strip()
     if names:
         return _find_name(bare, names)
@@ -55,10 +55,7 @@ def find_meant(value: str, type_: str, names: tuple[str, ...]) -> str | None:
 
 def _find_name(value: str, names: tuple[str, ...]) -> str | None:
     folded = {_fold(name): name for name in names}
-    if _fold(value) in folded:
-        return folded[_fold(value)]
-    near = difflib.get_close_matches(_fold(value), folded, n=2, cutoff=ALIKE)
-    return folded[near[0]] if len(near) == 1 else None  # DataPort could be either direction
+    return folded.get(TYPING_ERRORS.get(_fold(value), _fold(value)))
 
 
 def _fold(name: str) -> str:

@@ -9,7 +9,6 @@ schema knows are ignored; a known element in a wrong place remains a violation.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Iterable
 
 from lxml import etree
@@ -20,14 +19,18 @@ from mamori_tools.profiles.schema_table import XSI, XSI_TYPE, Attribute, Child, 
 from mamori_tools.profiles.xml_file import describe_path
 
 UNKNOWN_DATE = "1970-01-01T00:00:00"
-ALIKE = 0.9
-OTHER_NAMES = {"varname": "variableName", "variableName": "varname"}
+OTHER_NAMES = {
+    "varname": "variableName", "variableName": "varname", "occurrence": "occerrence", "subscriptionType": "subscriprionType",
+    "subscriprionType": "subscriptionType", "VersionUpLog": "VersionUpLogs", "VersionUpLogs": "VersionUpLog", "Component": "Components",
+    "Components": "Component",
+}  # fmt: skip
+"""Names of other versions, and the right spelling of a name that the schema spells wrongly."""
 PROPERTIES = {"dataType": "dataport.data_type", "interfaceType": "dataport.interface_type", "dataflowType": "dataport.dataflow_type"}
 """Attributes of a connector that its properties repeat."""
 SUBSTITUTES = {
-    "x": "0", "y": "0", "height": "-1", "width": "-1", "direction": "DOWN", "matchCase": "false", "implemented": "false",
-    "creationDate": UNKNOWN_DATE, "updateDate": UNKNOWN_DATE, "defaultValue": "", "dataType": "", "interfaceType": "", "dataflowType": "",
-    "pathUri": "", "vendor": "", "category": "", "version": "", "isRequired": "false",
+    "x": "0", "y": "0", "height": "-1", "width": "-1", "direction": "DOWN", "matchCase": "false",
+    "creationDate": UNKNOWN_DATE, "updateDate": UNKNOWN_DATE, "defaultValue": "", "interfaceType": "", "dataflowType": "",
+    "pathUri": "", "vendor": "", "category": "", "version": "",
 }  # fmt: skip
 """Values of missing attributes. Drawing data and empty texts cannot be misunderstood; dates are marked by their year."""
 ADDED_CHILDREN = ("Actions", "Location", "WaitTime")
@@ -45,7 +48,7 @@ class _Repair:
     def __init__(self, table: SchemaTable) -> None:
         self.found: list[Deviation] = []
         self._table = table
-        self._ports: dict[tuple[str | None, str], etree._Element] = {}
+        self._ports: dict[tuple[str | None, str], etree._Element] | None = None
 
     def prepare(self, root: etree._Element) -> etree._Element:
         """Declares all prefixes at the root, because `xsi:type` needs them, and renames the root."""
@@ -153,7 +156,8 @@ class _Repair:
         local = part.name.rpartition("}")[2]
         values = {name.rpartition("}")[2]: value for name, value in element.attrib.items()}
         if local in PROPERTIES:
-            return next((value for source in [element, *self._list_ports(element)] if (value := _get_property(source, PROPERTIES[local]))), "")
+            return next((value for source in [element, *self._list_ports(element)] if (value := _get_property(source, PROPERTIES[local]))),
+                        SUBSTITUTES.get(local))  # fmt: skip
         if local == "updateDate":
             return str(values.get("creationDate", UNKNOWN_DATE))
         if local == "position":
@@ -165,7 +169,8 @@ class _Repair:
 
     def _list_ports(self, connector: etree._Element) -> list[etree._Element]:
         """The ports that the connector names, as far as the components have them. Names of ports can begin with that of their instance."""
-        if not self._ports:
+        if self._ports is None:
+            self._ports = {}
             for port in connector.getroottree().getroot().iterfind("{*}Components/{*}DataPorts"):
                 self._ports[_get_local(port.getparent(), "instanceName"), str(_get_local(port, "name")).rpartition(".")[2]] = port
         keys = [(_get_local(end, "instanceName"), str(_get_local(end, "portName")).rpartition(".")[2])
@@ -173,26 +178,26 @@ class _Repair:
         return [self._ports[key] for key in keys if key in self._ports]
 
     def _find_name(self, name: str, known: Iterable[str], is_free: Callable[[str], bool]) -> str | None:
-        """The known name that `name` means: of another prefix, another version, another case, or with a typing error."""
+        """The known name that `name` means: of another prefix, another version or another case."""
         local = name.rpartition("}")[2]
         names = {own.rpartition("}")[2]: own for own in known if is_free(own)}
         lower = {own.lower(): own for own in names}
-        near = difflib.get_close_matches(local, names, n=1, cutoff=ALIKE)
         word = local if local in names else OTHER_NAMES.get(local, "")
-        word = word if word in names else lower.get(local.lower()) or (near[0] if near else "")
-        return names.get(word)
+        return names.get(word if word in names else lower.get(local.lower(), ""))
 
     def _name_children(self, element: etree._Element, own: ElementType) -> None:
+        present = {child.tag for child in element.iterchildren("*")}
         for child in element.findall("*"):
             if child.tag in own.children:
                 continue
-            meant = self._find_name(child.tag, own.children, lambda name: own.children[name].most is None or element.find(name) is None)
+            meant = self._find_name(child.tag, own.children, lambda name: own.children[name].most is None or name not in present)
             if meant is None and child.tag.rpartition("}")[2] not in list_element_names(self._table.family):
                 self._record("D08", child, "ignored")
                 self._remove(child)
             elif meant is not None:
                 self._record("D09", child, f"read as {self._table.shorten(meant)}")
                 child.tag = meant
+                present.add(meant)
 
     @staticmethod
     def _remove(child: etree._Element) -> None:
@@ -233,6 +238,8 @@ class _Repair:
             if part.least > counts.get(self._get_group(part), 0) and (local in ADDED_CHILDREN or local.startswith("On")):
                 counts[self._get_group(part)] = 1
                 child = etree.SubElement(element, part.name)
+                if local.startswith("On"):
+                    child.set(f"{part.name[: -len(local)]}implemented", "false")
                 if local == "WaitTime":
                     child.set(part.name.replace("WaitTime", "waitTime"), "0")
                 self._record("D10", element, f"{self._table.shorten(part.name)} added")

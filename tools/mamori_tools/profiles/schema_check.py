@@ -8,6 +8,7 @@ libxml2 checks both, so that the verdict is that of `xmllint --schema`. No file 
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -15,7 +16,7 @@ from pathlib import Path
 from lxml import etree
 
 from mamori_tools.profiles.schema_table import BUILT_IN, Child, ElementType, SchemaTable, load_table
-from mamori_tools.profiles.xml_file import describe_path, shorten_names
+from mamori_tools.profiles.xml_file import describe_path, get_local_name, shorten_names
 from mamori_trace.base.errors import InputError
 
 XSD = "http://www.w3.org/2001/XMLSchema"
@@ -38,14 +39,40 @@ class Finding:
 
 def find_violations(root: etree._Element, family: str, version: str, folder: Path | None = None) -> list[Finding]:
     """@param folder folder with the published schema files; None: the tables. @raise InputError for a folder that cannot be used."""
+    if folder is not None and not folder.is_dir():
+        raise InputError("not a folder; specify the folder with the published schema files" if folder.exists() else "not found; check the path", folder)
     schema = _load_own(family, version) if folder is None else _load_published(family, version, folder)
     if schema.validate(root):
         return []
     table = load_table(family, version)
-    tree = root.getroottree()
-    elements = {tree.getpath(element): element for element in root.iter()}
-    found = [Finding(error.line, describe_path(elements.get(error.path, root), table), shorten_names(error.message, table)) for error in schema.error_log]
-    return list(dict.fromkeys(found))
+    steps: dict[etree._Element, dict[str, etree._Element]] = {}
+    found: dict[Finding, None] = {}
+    for error in schema.error_log:
+        element = _find_element(root, error.path or "", steps)
+        line = error.line or next((own.sourceline for own in (element, *element.iterancestors()) if own.sourceline), 1)
+        found[Finding(line, describe_path(element, table), shorten_names(error.message, table))] = None
+    return list(found)
+
+
+def _find_element(root: etree._Element, path: str, steps: dict[etree._Element, dict[str, etree._Element]]) -> etree._Element:
+    """@param path as libxml2 writes it. @param steps cache, the children by their step in such a path; a path of each element would take quadratic time."""
+    element = root
+    for step in path.split("/")[2:]:
+        if element not in steps:
+            steps[element] = _list_steps(element)
+        element = steps[element].get(step, element)
+    return element
+
+
+def _list_steps(parent: etree._Element) -> dict[str, etree._Element]:
+    children = list(parent.iterchildren("*"))
+    names = [f"{child.prefix}:{get_local_name(child)}" if child.prefix else "*" if child.tag.startswith("{") else child.tag for child in children]
+    totals, counts, found = Counter(names), Counter[str](), {}
+    for position, (child, name) in enumerate(zip(children, names, strict=True), start=1):
+        counts[name] += 1
+        number, total = (position, len(children)) if name == "*" else (counts[name], totals[name])
+        found[name if total == 1 else f"{name}[{number}]"] = child
+    return found
 
 
 class _Documents(etree.Resolver):

@@ -21,7 +21,18 @@ from mamori_trace.base.errors import InputError
 MAX_BYTES = 8_000_000
 """Maximum size of a profile. The largest public one is smaller than 1 MB."""
 DECLARED = re.compile(rb"""<\?xml[^>]*?\sencoding\s*=\s*["']([A-Za-z][A-Za-z0-9._-]*)["']""")
+ODD_ENCODINGS = ("idna", "punycode", "undefined", "unicode_escape", "raw_unicode_escape", "utf_7")
+"""Encodings that Python has for other purposes."""
+ELEMENTS_MAX = 20_000
+"""The largest public profile has 200."""
+ATTRIBUTES_MAX = 256
+"""Maximum number in one element. libxml2 compares each attribute with all others."""
+START_TAG = re.compile(r"<[^/!?\s<]([^<]*+)")
+QUOTED = re.compile(r"\"[^\"]*\"|'[^']*'")
+PLACE_MAX = 100
+"""Maximum length of the name and key of one element in a place."""
 MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
+DOCUMENT_TYPE = "has a document type, which could define entities; remove the line <!DOCTYPE"
 CLARK = re.compile(r"\{([^{}]+)\}")
 
 
@@ -41,11 +52,16 @@ def parse_xml(data: bytes, path: Path) -> etree._ElementTree:
     """@raise InputError with the line for a document type, a wrong encoding or a syntax error."""
     text = _decode(data, path)
     _reject_document_type(text, path)
+    _reject_large_parts(text, path)
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False, remove_blank_text=False)
     try:
-        return etree.ElementTree(etree.fromstring(data, parser))
+        tree = etree.ElementTree(etree.fromstring(data, parser))
     except etree.XMLSyntaxError as error:
-        raise InputError(f"not well-formed XML: {error.msg}; correct the file or restore it", path, error.lineno or 1) from error
+        reason = re.sub(r", line \d+, column \d+$", "", error.msg or "")
+        raise InputError(f"not well-formed XML: {reason}; correct the file or restore it", path, error.lineno or 1) from error
+    if tree.docinfo.internalDTD is not None:  # the parser used another encoding than _decode()
+        raise InputError(DOCUMENT_TYPE, path, 1)
+    return tree
 
 
 def _decode(data: bytes, path: Path) -> str:
@@ -53,12 +69,17 @@ def _decode(data: bytes, path: Path) -> str:
     declared = DECLARED.match(data.removeprefix(codecs.BOM_UTF8))
     encoding = mark or (declared[1].decode("ascii") if declared else "utf-8")
     try:
-        return data.decode(encoding)
-    except LookupError as error:
-        raise InputError(f"unknown encoding {encoding}; save the file as UTF-8", path, 1) from error
+        text = "" if codecs.lookup(encoding).name.replace("-", "_") in ODD_ENCODINGS else data.decode(encoding)
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise InputError(f"byte 0x{data[error.start]:02x} is not valid {encoding}; save the file with its declared encoding", path, line) from error
+    except (LookupError, UnicodeError):
+        text = ""
+    if not text:
+        raise InputError(f"unknown encoding {encoding}; save the file as UTF-8", path, 1)
+    if "\0" in text or not text.lstrip("\ufeff \t\r\n").startswith("<"):
+        raise InputError(f"is not XML text in {encoding}; save the file as UTF-8", path, text.count("\n", 0, max(text.find("\0"), 0)) + 1)
+    return text
 
 
 def _reject_document_type(text: str, path: Path) -> None:
@@ -66,17 +87,28 @@ def _reject_document_type(text: str, path: Path) -> None:
     position = 0
     while (position := text.find("<", position)) >= 0:
         if text.startswith("<!DOCTYPE", position):
-            raise InputError("has a document type, which could define entities; remove the line <!DOCTYPE", path, text.count("\n", 0, position) + 1)
+            raise InputError(DOCUMENT_TYPE, path, text.count("\n", 0, position) + 1)
         end = "?>" if text.startswith("<?", position) else "-->" if text.startswith("<!--", position) else None
         position = text.find(end, position) if end else -1
         if position < 0:
             return
 
 
+def _reject_large_parts(text: str, path: Path) -> None:
+    """The time of libxml2 is quadratic in these numbers. Tags in comments count as well."""
+    for number, match in enumerate(START_TAG.finditer(text), start=1):
+        is_large = match[1].count("=") > ATTRIBUTES_MAX and QUOTED.sub("''", match[1]).partition(">")[0].count("''") > ATTRIBUTES_MAX
+        if is_large or number > ELEMENTS_MAX:
+            what = f"{ATTRIBUTES_MAX} attributes in an element" if is_large else f"{ELEMENTS_MAX} elements"
+            raise InputError(f"has more than {what}; specify a profile", path, text.count("\n", 0, match.start()) + 1)
+
+
 def format_xml(tree: etree._ElementTree) -> bytes:
     """The document with its declaration, encoding and comments; line ends are LF."""
     document = tree.docinfo
-    return bytes(etree.tostring(tree, xml_declaration=True, encoding=document.encoding or "UTF-8", standalone=document.standalone))
+    encoding = document.encoding or "UTF-8"
+    content = bytes(etree.tostring(tree, xml_declaration=True, encoding=encoding, standalone=document.standalone))
+    return content + "\n".encode(encoding).removeprefix(codecs.BOM_UTF16_LE)
 
 
 def canonicalize(tree: etree._ElementTree) -> bytes:
@@ -109,5 +141,5 @@ def get_key(element: etree._Element) -> str:
 
 def describe_path(element: etree._Element, table: SchemaTable) -> str:
     """For example `Components[Std0]/DataPorts[in]`; the root element has its own name."""
-    parts = [f"{get_local_name(own)}{get_key(own)}" for own in (element, *element.iterancestors()) if isinstance(own.tag, str)]
+    parts = [f"{get_local_name(own)}{get_key(own)}"[:PLACE_MAX] for own in (element, *element.iterancestors()) if isinstance(own.tag, str)]
     return "/".join(reversed(parts[:-1])) or table.shorten(element.tag)

@@ -18,7 +18,7 @@ from typing import Any
 import yaml
 from lxml import etree
 
-from mamori_tools.profiles.attribute_value import BOOLEANS, DATE
+from mamori_tools.profiles.attribute_value import BOOLEANS, DATE, INTEGER
 from mamori_tools.profiles.deviation import Deviation
 from mamori_tools.profiles.schema_table import XSI, XSI_TYPE, Attribute, Child, ElementType, SchemaTable
 from mamori_tools.profiles.xml_file import describe_path
@@ -26,9 +26,11 @@ from mamori_trace.base.errors import InputError
 
 TOP = "rtsProfile"
 TYPE_KEY = "xsi::type"
+LINE_ENDS = re.compile("[\x85\u2028\u2029]")
 NUMBER = re.compile(r"-?(0|[1-9][0-9]{0,14})(\.[0-9]{1,15})?")
 DATE_KEYS = ("year", "month", "day", "hour", "minute", "second")
 NULL = "tag:yaml.org,2002:null"
+NOT_XML = re.compile("[^\\t\\n\\r\\x20-\\ud7ff\\ue000-\\ufffd\\U00010000-\\U0010ffff]")
 DEPTH_MAX = 32
 LINE_MAX = 65535  # lines that libxml2 counts
 
@@ -43,6 +45,12 @@ class _Dumper(yaml.SafeDumper):
     pass
 
 
+def _represent_text(dumper: Any, text: str) -> Any:
+    """Quotes line ends that plain YAML would read as a space."""
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style='"' if LINE_ENDS.search(text) else None)
+
+
+_Dumper.add_representer(str, _represent_text)
 _Dumper.add_representer(_Key, lambda dumper, key: dumper.represent_scalar("tag:yaml.org,2002:str", key, style='"'))
 
 
@@ -171,7 +179,11 @@ class _Reader:
         widest = self._table.types[[declared, *self._table.list_extensions(declared)][-1]]
         own = widest
         if explicit is not None:
-            own = self._table.types.get(explicit.value or declared, widest)
+            name = self._read_text(explicit) or declared
+            own = self._table.types[name] if self._table.is_derived(name, declared) else widest
+            if own.name != name:
+                self._record("D02", explicit, element, f"{TYPE_KEY} {name} ignored")
+                explicit = None
         keys = {_make_key(name, own, self._table): name for name in [*own.attributes, *own.children]}
         actual = own.name if explicit is not None else expect_type(declared, self._table, {keys[key] for key in pairs if key in keys})
         if actual != declared or (explicit is not None and explicit.value):
@@ -179,7 +191,7 @@ class _Reader:
         for attribute in own.attributes.values():
             value = pairs.pop(_make_key(attribute.name, own, self._table), None)
             if value is not None and value.tag != NULL:
-                element.set(attribute.name, self._read_scalar(value, attribute))
+                element.set(attribute.name, self._read_scalar(value, attribute, element))
         condition = pairs.pop("condition", None) if any(child.choice is not None for child in own.children.values()) else None
         choices = dict(self._list_pairs(condition)) if condition is not None else {}
         for child in own.children.values():
@@ -188,7 +200,11 @@ class _Reader:
             if value is not None and value.tag != NULL:
                 self._add(element, child, value)
         for key, value in [*pairs.items(), *choices.items()]:
-            self.found.append(Deviation("D20", value.start_mark.line + 1, f"{describe_path(element, self._table)}: {key}", "ignored"))
+            self._record("D20", value, element, "ignored", key)
+
+    def _record(self, number: str, node: Any, element: etree._Element, repair: str, key: str = "") -> None:
+        place = describe_path(element, self._table)
+        self.found.append(Deviation(number, node.start_mark.line + 1, f"{place}: {key}" if key else place, repair))
 
     def _add(self, element: etree._Element, child: Child, node: Any) -> None:
         if child.most is None and not isinstance(node, yaml.SequenceNode):
@@ -215,19 +231,21 @@ class _Reader:
         if not isinstance(node, yaml.ScalarNode):
             raise InputError("a single value is expected here", self._path, node.start_mark.line + 1)
         text = str(node.value)
-        if any(ord(letter) < 32 and letter not in "\t\n\r" for letter in text):
-            raise InputError("a control character cannot be part of a profile; remove it", self._path, node.start_mark.line + 1)
+        if NOT_XML.search(text):
+            raise InputError("a control character or U+FFFE cannot be part of a profile; remove it", self._path, node.start_mark.line + 1)
         return text
 
-    def _read_scalar(self, node: Any, attribute: Attribute) -> str:
+    def _read_scalar(self, node: Any, attribute: Attribute, element: etree._Element) -> str:
         if attribute.type == "dateTime" and isinstance(node, yaml.MappingNode):
             parts = {key: self._read_text(value) for key, value in self._list_pairs(node)}
             try:
-                numbers = [int(parts.pop(key)) for key in DATE_KEYS]
-            except (KeyError, ValueError) as error:
+                year, *rest = [int(INTEGER.fullmatch(parts.pop(key))[0]) for key in DATE_KEYS]  # type: ignore[index]  # TypeError for no match
+            except (KeyError, TypeError) as error:
                 raise InputError(f"a date is a map of integers: {', '.join(DATE_KEYS)}", self._path, node.start_mark.line + 1) from error
-            year, *rest = numbers
-            return "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}".format(year, *rest) + parts.get("fraction", "") + parts.get("zone", "")
+            fraction, zone = parts.pop("fraction", ""), parts.pop("zone", "")
+            for key in parts:
+                self._record("D20", node, element, "ignored", f"{self._table.shorten(attribute.name)}/{key}")
+            return "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}".format(year, *rest) + fraction + zone
         text = self._read_text(node)
         is_plain_boolean = attribute.type == "boolean" and node.tag == "tag:yaml.org,2002:bool"
         return BOOLEANS.get(text.lower(), text) if is_plain_boolean else text

@@ -10,7 +10,7 @@ from profile_samples import CONF, RTC_03, RTS_02, SAMPLES
 from mamori_tools.profiles.convert import convert
 from mamori_tools.profiles.profile import load_profile
 from mamori_tools.profiles.view import RtcView, RtsView
-from mamori_tools.profiles.xml_file import MAX_BYTES, canonicalize, format_xml, parse_xml
+from mamori_tools.profiles.xml_file import ATTRIBUTES_MAX, ELEMENTS_MAX, MAX_BYTES, canonicalize, format_xml, parse_xml
 from mamori_trace.base.errors import InputError
 
 SHARED = Path(__file__).resolve().parents[3] / "../shared/data/profiles"
@@ -102,6 +102,14 @@ NAMES = b'<?xml version="1.0" encoding="latin-9000"?>\n<a/>'
     (RTC_03.replace('rtc:name="Motor"', 'rtc:name="\x01"').encode(), 4, "not well-formed XML"),
     (RTC_03.encode("shift_jis"), 6, "is not valid UTF-8"),
     (NAMES, 1, "unknown encoding latin-9000"),
+    (NAMES.replace(b"latin-9000", b"undefined"), 1, "unknown encoding undefined"),
+    (NAMES.replace(b"latin-9000", b"punycode"), 1, "unknown encoding punycode"),
+    ("<a/>".encode("utf-16-le"), 1, "is not XML text in utf-8"),
+    ("<!-- -->\n<a>\0</a>".encode(), 2, "is not XML text in utf-8"),
+    (NAMES.replace(b"latin-9000", b"UTF-16"), 1, "is not XML text in UTF-16"),
+    (b"rtsProfile:\n  id: \xef\xbf\xbe\n", 2, "cannot be part of a profile|not text in UTF-8"),
+    (b'rtsProfile:\n  id: "\\uFFFF"\n', 2, "cannot be part of a profile"),
+    (b"rtsProfile:\n  xsi::type: [1]\n", 2, "a single value is expected"),
     (b"<html><body/></html>", 1, "is XML, but not a profile"),
     (b"rtsProfile:\n  id: [\n", 3, "not well-formed YAML"),
     (b"rtsProfile:\n  id: &a x\n  version: *a\n", 3, "has an alias"),
@@ -136,6 +144,27 @@ def test_a_file_of_the_maximum_size_is_read(tmp_path: Path, extra: int, is_read:
     data = b"<a>" + b" " * (MAX_BYTES - 7 + extra) + b"</a>"
     with pytest.raises(InputError, match="not a profile" if is_read else "larger than 8000000 bytes"):
         load_profile(write(tmp_path, data))
+
+
+@pytest.mark.verifies("SWR-PFL-004", technique="boundary_values", polarity="violation")
+@pytest.mark.parametrize(("text", "is_read"), [
+    ("<a>\n" + "<b/>" * (ELEMENTS_MAX - 1) + "</a>", True), ("<a>\n" + "<b/>" * ELEMENTS_MAX + "</a>", False),
+    ("<a>\n<b " + " ".join(f"a{number}='>=\"'" for number in range(ATTRIBUTES_MAX)) + ">a='1'</b></a>", True),
+    ("<a>\n<b " + " ".join(f"a{number}='>=\"'" for number in range(ATTRIBUTES_MAX + 1)) + "/></a>", False),
+])  # fmt: skip
+def test_the_numbers_of_elements_and_attributes_are_limited(tmp_path: Path, text: str, is_read: bool) -> None:
+    with pytest.raises(InputError, match="but not a profile" if is_read else "has more than (20000 elements|256 attributes in an element)") as caught:
+        load_profile(write(tmp_path, text.encode()))
+    assert caught.value.line == (1 if is_read else 2)
+
+
+@pytest.mark.verifies("SWR-PFL-002", technique="error_guessing", polarity="violation")
+def test_each_of_many_violations_has_its_place(tmp_path: Path) -> None:
+    space = 'xmlns="http://www.openrtp.org/namespaces/rtc"'
+    ports = "".join(f'<rtc:DataPorts rtc:name="{number}"/>' for number in range(300))
+    violations = load_profile(write(tmp_path, RTC_03.replace("</rtc:Actions>", f"</rtc:Actions>{ports}<DataPorts {space}/>").encode())).violations
+
+    assert {f"DataPorts[{number}]" for number in range(300)} | {"DataPorts"} <= {violation.place for violation in violations}
 
 
 @pytest.mark.skipif(not SHARED.is_dir(), reason=f"{SHARED} not found")

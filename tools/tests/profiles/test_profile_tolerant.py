@@ -42,7 +42,7 @@ FOLLOWING = {"D02": ("D01",), "D10": ("D04",), "D14": ("D04",)}
      '    <rts:ExecutionContexts xsi:type="rtsExt:execution_context_ext" rts:id="0" rts:kind="PERIODIC" rts:rate="1000.0"/>', "D03", "sorted"),
     (RTS_02, ' rts:updateDate="2026-01-02T03:04:05"', "", "D04", "rts:updateDate='2026-01-02T03:04:05.250+09:00' added"),
     (RTC_03, ' rtcExt:position="LEFT"', "", "D04", "rtcExt:position='LEFT' added"),
-    (RTS_02, ' rts:dataType="IDL:RTC/TimedDouble:1.0"', "", "D04", "rts:dataType='' added"),
+    (RTS_02, ' rts:interfaceType="corba_cdr"', "", "D04", "rts:interfaceType='' added"),
     (RTC_03, '"Provided"', '"PROVIDED"', "D05", "rtc:direction='PROVIDED' read as 'Provided'"),
     (RTC_03, '"PERIODIC"', '"PERIODOC"', "D05", "rtc:activityType='PERIODOC' read as 'PERIODIC'"),
     (RTC_03, '"PERIODIC"', '"EVENT_DRIVEN"', "D05", "rtc:activityType='EVENT_DRIVEN' read as 'EVENTDRIVEN'"),
@@ -95,6 +95,10 @@ def test_a_deviation_is_accepted_and_named(tmp_path: Path, sample: str, old: str
     (RTC_03, 'rtc:id="RTC:Mamori:test:Motor:1.0.0"', ""),
     (RTC_03, 'rtc:direction="Provided"', ""),
     (RTC_03, 'rtc:direction="Provided"', 'rtc:direction="x"'),
+    (RTC_03, '"PERIODIC"', '"PERIODICAL"'),
+    (RTC_03, '<rtc:OnInitialize rtc:implemented="true"', "<rtc:OnInitialize"),
+    (RTS_02, ' rts:dataType="IDL:RTC/TimedDouble:1.0"', ""),
+    (RTS_02, ' rts:isRequired="true"', ""),
     (RTC_03, "<rtc:UpperBoundary>2</rtc:UpperBoundary>", ""),
     (RTS_02, 'rts:instanceName="Motor0"', ""),
     (RTS_02, 'rts:connectorId="c1"', ""),
@@ -115,6 +119,13 @@ def test_a_valid_profile_has_no_deviation_and_is_not_changed(tmp_path: Path, nam
 
     assert (profile.violations, profile.deviations) == ([], [])
     assert profile.version.replace(".", "_") == name[4:7]
+
+
+@pytest.mark.verifies("SWR-PFL-005", technique="error_guessing")
+def test_a_composite_type_of_another_version_has_no_meaning(tmp_path: Path) -> None:
+    profile = load_profile(write(tmp_path, RTS_02.replace('rts:compositeType="None"', 'rts:compositeType="ECShared"')), tolerant=True)
+
+    assert {(own.id, own.repair) for own in profile.deviations} == {("D06", "rts:compositeType='ECShared' ignored")}
 
 
 @pytest.mark.verifies("SWR-PFL-005")

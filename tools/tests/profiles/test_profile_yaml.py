@@ -123,6 +123,9 @@ def test_values_keep_their_spelling_and_booleans_become_those_of_xml(tmp_path: P
     ("name: in,", "name: in, colour: red,", 13, "the key is unknown"),
     ("pathUri: a", "pathUri: a\n        condition: {}", 9, "the key is unknown"),
     ("isRequired: Yes", "isRequired: maybe", 7, "'maybe' is not a valid value"),
+    ("updateDate: {day: 6,", "updateDate: {days: 1, day: 6,", 5, "the key is unknown"),
+    ("pathUri: a", "pathUri: a\n        xsi::type: rtsExt:nothing", 9, "xsi:type is not a type of this element"),
+    ("pathUri: a", "pathUri: a\n        xsi::type: rts:dataport", 9, "xsi:type is not a type of this element"),
     ("compositeType: None", "compositeType: All", 7, "'All' is not an element of the set"),
 ])  # fmt: skip
 def test_a_violation_has_the_line_of_the_yaml_file(tmp_path: Path, old: str, new: str, line: int, text: str) -> None:
@@ -130,7 +133,7 @@ def test_a_violation_has_the_line_of_the_yaml_file(tmp_path: Path, old: str, new
     violations = load_profile(path).violations
 
     assert any((violation.line, text in violation.text) == (line, True) for violation in violations), violations
-    assert any(deviation.id in ("D20", "D05", "D06", "D04") for deviation in load_profile(path, tolerant=True).deviations) or "isRequired" in new
+    assert any(deviation.id in ("D02", "D20", "D05", "D06", "D04") for deviation in load_profile(path, tolerant=True).deviations) or "isRequired" in new
 
 
 @pytest.mark.verifies("SWR-PFL-006", polarity="violation")
@@ -138,6 +141,7 @@ def test_a_violation_has_the_line_of_the_yaml_file(tmp_path: Path, old: str, new
     ("dataPorts: [{name: in,", "dataPorts: [{name: [in],", 13, "a single value is expected"),
     ("dataPorts: [{name: in,", "dataPorts: [{[a]: in,", 13, "a key is not text"),
     ("pathUri: a", 'pathUri: "\\x01"', 8, "a control character"),
+    ("creationDate: {day: 6,", "creationDate: {day: 0_6,", 4, "a date is a map of integers"),
     ("rtsProfile:", "other:", 1, "not the YAML form of an RTS profile"),
 ])  # fmt: skip
 def test_a_file_that_is_not_the_yaml_form_is_rejected(tmp_path: Path, old: str, new: str, line: int, text: str) -> None:
@@ -184,6 +188,13 @@ def test_rtc_conf_has_no_other_form_and_only_systems_a_portable_one(tmp_path: Pa
         convert(load_profile(write(tmp_path, "a: 1\n", "rtc.conf")), tmp_path / "out.xml")
     with pytest.raises(InputError, match="--portable is for RTS profiles"):
         make_portable(load_profile(write(tmp_path, RTC_03)))
+
+
+@pytest.mark.verifies("SWR-PFL-006", technique="error_guessing")
+def test_line_ends_of_unicode_are_kept(tmp_path: Path) -> None:
+    profile = load_profile(write(tmp_path, RTS_02.replace("left: 1", "a\x85b\u2028c\u2029d")))
+
+    assert compare(profile, turn(profile)) == []
 
 
 @pytest.mark.verifies("SWR-PFL-010")
