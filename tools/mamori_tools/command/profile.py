@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from mamori_tools.host.arguments import Command
-from mamori_tools.host.exit_status import EXIT_OK
+from mamori_tools.host.exit_status import EXIT_OK, EXIT_USAGE
 from mamori_tools.profiles.compare import Difference, compare, flatten
 from mamori_tools.profiles.convert import convert, make_portable
 from mamori_tools.profiles.deviation import Deviation
@@ -29,6 +29,11 @@ from mamori_trace.base.text_file import refuse_output
 from mamori_trace.base.whole_file import whole_file
 
 EXIT_INVALID = 1
+PRINTED_MAX = 1000
+"""Maximum number of printed violations, and of deviations and notes."""
+OPTIONS = {"tolerant": ("check", "show", "convert", "diff"), "schema": ("check", "show", "convert", "diff"), "json": ("check", "show", "diff", "find"),
+           "out": ("convert",), "portable": ("convert",), "system": ("find",)}  # fmt: skip
+"""Actions of each option."""
 ACTIONS = {"check": 1, "show": 1, "convert": 1, "diff": 2, "find": 1}
 """Number of paths of each action."""
 
@@ -40,10 +45,11 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f"profile {arguments.action}: {len(arguments.paths)} paths instead of {wanted}; see ./mamori profile --help")
     if "" in arguments.paths:
         raise InputError(f"profile {arguments.action}: a path is empty; specify a file")
-    if (arguments.out is not None or arguments.portable) != (arguments.action == "convert") or (arguments.action == "convert" and arguments.out is None):
-        raise InputError("profile: convert needs --out, and only convert has --out and --portable; see ./mamori profile --help")
-    if arguments.system is not None and arguments.action != "find":
-        raise InputError("profile: --system is for find; omit it")
+    for option, actions in OPTIONS.items():
+        if getattr(arguments, option) and arguments.action not in actions:
+            raise InputError(f"profile: --{option} is for {', '.join(actions)}; omit it")
+    if arguments.action == "convert" and arguments.out is None:
+        raise InputError("profile: convert needs --out; see ./mamori profile --help")
     if arguments.action == "find":
         return _find(arguments)
     profiles = [load_profile(Path(path), arguments.tolerant, arguments.schema) for path in arguments.paths]
@@ -54,8 +60,19 @@ def run(arguments: argparse.Namespace) -> int:
             worst = profile.violations[0]
             hint = "correct the file" if arguments.tolerant else "correct the file or add --tolerant"
             print(f"mamori: {profile.path}:{worst.line}: {worst.place}: {worst.text}; {hint}", file=sys.stderr)
-            return EXIT_INVALID
+            return EXIT_USAGE if arguments.action == "diff" else EXIT_INVALID
+    _warn(profiles)
     return {"show": _show, "convert": _convert, "diff": _diff}[arguments.action](profiles, arguments)
+
+
+def _warn(profiles: list[Profile]) -> None:
+    """Names the deviations of tolerated files on standard error."""
+    for profile in profiles:
+        for deviation in profile.deviations[:PRINTED_MAX]:
+            place = f"{deviation.place}: " if deviation.place else ""
+            print(f"mamori: {profile.path}:{deviation.line}: {deviation.id}: {place}{deviation.sentence}: {deviation.repair}", file=sys.stderr)
+        if len(profile.deviations) > PRINTED_MAX:
+            print(f"mamori: {profile.path}: {len(profile.deviations) - PRINTED_MAX} more deviations", file=sys.stderr)
 
 
 def _check(profile: Profile, arguments: argparse.Namespace) -> int:
@@ -69,11 +86,15 @@ def _check(profile: Profile, arguments: argparse.Namespace) -> int:
             "deviations": [_list_parts(deviation) for deviation in profile.deviations], "notes": [_list_parts(note) for note in notes],
         })  # fmt: skip
         return EXIT_OK if is_valid else EXIT_INVALID
-    for violation in profile.violations:
-        print(f"{profile.path}:{violation.line}: {violation.place}: {violation.text}")
-    for word, deviation in [*(("deviation", own) for own in profile.deviations), *(("note", own) for own in notes)]:
+    for violation in profile.violations[:PRINTED_MAX]:
+        print(f"{profile.path}:{violation.line}: {': '.join(filter(None, (violation.place, violation.text)))}")
+    others = [*(("deviation", own) for own in profile.deviations), *(("note", own) for own in notes)]
+    for word, deviation in others[:PRINTED_MAX]:
         place = f"{deviation.place}: " if deviation.place else ""
         print(f"{profile.path}:{deviation.line}: {word} {deviation.id}: {place}{deviation.sentence}: {deviation.repair}")
+    more = max(len(profile.violations) - PRINTED_MAX, 0) + max(len(others) - PRINTED_MAX, 0)
+    if more:
+        print(f"{profile.path}: {more} more, see --json")
     verdict = "valid" if is_valid else f"invalid, {_count(len(profile.violations), 'violation')}"
     extent = f" with {_count(len(profile.deviations), 'deviation')}" if profile.deviations else ""
     print(f"{profile.path}: {profile.title}: {verdict}{extent}")
@@ -95,7 +116,8 @@ def _print_json(content: object) -> None:
 def _show(profiles: list[Profile], arguments: argparse.Namespace) -> int:
     [profile] = profiles
     if arguments.json:
-        _print_json({"file": str(profile.path), "profile": profile.family, "version": profile.version, "values": flatten(profile)})
+        _print_json({"file": str(profile.path), "profile": profile.family, "version": profile.version,
+                     "deviations": [_list_parts(deviation) for deviation in profile.deviations], "values": flatten(profile)})  # fmt: skip
         return EXIT_OK
     print(f"{profile.path}: {profile.title}")
     for title, lines in {"rtc": _list_fields, "rts": _list_system, "conf": _list_keys}[profile.family](profile):
@@ -109,9 +131,9 @@ def _show(profiles: list[Profile], arguments: argparse.Namespace) -> int:
 def _list_fields(profile: Profile) -> Iterator[tuple[str, list[tuple[str, str]]]]:
     """Fields with a value, by form and element."""
     groups: dict[tuple[str, object], list[tuple[str, str]]] = {}
-    for own in read_fields(profile.root, profile.table):
+    for own in sorted(read_fields(profile.root, profile.table), key=lambda found: found.part):
         if own.value:
-            groups.setdefault((own.field.title, own.owner), []).append((own.field.label, own.value))
+            groups.setdefault((own.field.title, own.owner), []).append((f"{own.part} {own.field.label}".strip(), own.value))
     for (title, _), lines in groups.items():
         yield title, lines
 
@@ -148,8 +170,6 @@ def _convert(profiles: list[Profile], arguments: argparse.Namespace) -> int:
             part.write_bytes(content)
     except OSError as error:
         raise refuse_output(arguments.out, error) from error
-    for deviation in profile.deviations:
-        print(f"mamori: {profile.path}:{deviation.line}: {deviation.id}: {deviation.sentence}: {deviation.repair}", file=sys.stderr)
     for loss in [*lost, *losses]:
         print(f"mamori: not kept: {loss}", file=sys.stderr)
     print(f"mamori: wrote {arguments.out}", file=sys.stderr)
@@ -162,7 +182,8 @@ def _diff(profiles: list[Profile], arguments: argparse.Namespace) -> int:
         raise InputError(f"profile diff: {first.path} is an {first.title}, {second.path} an {second.title}; compare profiles of one kind")
     differences = compare(first, second)
     if arguments.json:
-        _print_json([dataclasses.asdict(difference) for difference in differences])
+        deviations = [{"file": str(profile.path), **_list_parts(deviation)} for profile in profiles for deviation in profile.deviations]
+        _print_json({"differences": [dataclasses.asdict(difference) for difference in differences], "deviations": deviations})
     else:
         for difference in differences:
             print(_format_difference(difference))
@@ -179,12 +200,12 @@ def _format_difference(difference: Difference) -> str:
 
 def _find(arguments: argparse.Namespace) -> int:
     folder, *words = arguments.paths
-    criteria = {}
+    criteria = []
     for word in words:
         key, sign, pattern = word.partition("=")
         if not sign:
             raise InputError(f"profile find: '{word}' is not KEY=PATTERN; keys: {', '.join(KEYS)}")
-        criteria[key] = pattern
+        criteria.append((key, pattern))
     packages, errors = find_packages(Path(folder))
     for error in errors:
         print(f"mamori: {error}", file=sys.stderr)
@@ -225,6 +246,6 @@ COMMAND = Command(
     add_arguments, run, "checks, shows, converts and compares profiles of RT-middleware, and finds component packages",
     "Reads the files of OpenRTM's tools: RTC.xml (0.1 to 0.3), RTS.xml (0.1, 0.2), its YAML form and rtc.conf. The strict check has the verdict of "
     "xmllint with the schema of the version that the file names.",
-    {1: "check: invalid; diff: different; find: nothing found; other actions: the file is invalid"},
+    {1: "check: invalid; diff: different; find: nothing found; show and convert: the file is invalid"},
     examples=("profile check RTC.xml", "profile check old_system.xml --tolerant --json", "profile convert RTS.xml --out RTS.yaml",
               "profile find components data-type=*TimedDoubleSeq language=C++"))  # fmt: skip

@@ -7,11 +7,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from datetime import datetime
 
 from lxml import etree
 
+from mamori_tools.profiles.attribute_value import BOOLEANS
 from mamori_tools.profiles.profile import Profile
-from mamori_tools.profiles.schema_table import XSI
+from mamori_tools.profiles.schema_table import BUILT_IN, XSI
 from mamori_tools.profiles.xml_file import get_key, get_local_name
 
 
@@ -27,7 +29,30 @@ class Difference:
 def compare(first: Profile, second: Profile) -> list[Difference]:
     """Differences in the order of the first profile, then what only the second one has."""
     old, new = flatten(first), flatten(second)
-    return [Difference(place, old.get(place), new.get(place)) for place in {**old, **new} if old.get(place) != new.get(place)]
+    types = {} if first.conf is not None else {
+        name.rpartition("}")[2]: part.type for own in first.table.types.values() for name, part in own.attributes.items() if part.type in BUILT_IN}  # fmt: skip
+
+    def is_different(place: str) -> bool:
+        one, other, type_ = old.get(place), new.get(place), types.get(place.rpartition("@")[2], "string")
+        return one != other and (one is None or other is None or _get_meaning(one.strip(), type_) != _get_meaning(other.strip(), type_))
+
+    return [Difference(place, old.get(place), new.get(place)) for place in {**old, **new} if is_different(place)]
+
+
+def _get_meaning(text: str, type_: str) -> object:
+    """A value that is equal for all spellings of a valid value."""
+    match type_:
+        case "boolean":
+            return BOOLEANS.get(text, text)
+        case "integer":
+            return int(text)
+        case "double":
+            return text if text.endswith(("INF", "NaN")) else float(text)
+        case "dateTime":
+            date = datetime.fromisoformat(text)
+            return date if date.tzinfo is None else date.timestamp()
+        case _:
+            return text
 
 
 def flatten(profile: Profile) -> dict[str, str]:

@@ -11,7 +11,7 @@ from pathlib import Path
 from lxml import etree
 
 from mamori_tools.profiles.attribute_value import DATE
-from mamori_tools.profiles.profile import Profile
+from mamori_tools.profiles.profile import Profile, parse_profile
 from mamori_tools.profiles.schema_table import XSI_TYPE
 from mamori_tools.profiles.view import RtsView
 from mamori_tools.profiles.xml_file import canonicalize, format_xml, parse_xml
@@ -19,24 +19,36 @@ from mamori_tools.profiles.yaml_twin import expect_type, format_yaml, list_losse
 from mamori_trace.base.errors import InputError
 
 YAML = (".yaml", ".yml")
+XML = (".xml", ".rtsys")
 
 
 def convert(profile: Profile, target: Path) -> tuple[bytes, list[str]]:
     """@param profile a valid or repaired profile. @return the content of `target`, whose suffix gives the form, and what it does not keep.
-    @raise InputError for a form that the profile does not have."""
+    @raise InputError for a form that the profile does not have, or a result that would not be valid."""
+    suffix = target.suffix.lower()
+    if suffix not in (*XML, *YAML, ".conf"):
+        raise InputError("the suffix names no form; specify a file .xml, .yaml or .conf", target)
     if profile.conf is not None:
-        if target.suffix in (".xml", *YAML):
+        if suffix != ".conf":
             raise InputError("rtc.conf has no other form; specify a file .conf", target)
         return profile.conf.format(), []
-    if target.suffix in YAML:
+    if suffix in YAML:
         if profile.family != "rts" or profile.version == "0.1":
             raise InputError(f"an {profile.title} has no YAML form; specify a file .xml", target)
-        return format_yaml(profile.root, profile.table).encode(), list_losses(profile.root)
-    if target.suffix == ".conf":
+        return _check_result(format_yaml(profile.root, profile.table).encode(), target), list_losses(profile.root)
+    if suffix == ".conf":
         raise InputError(f"an {profile.title} is not an rtc.conf; specify a file .xml", target)
     tree = profile.root.getroottree()
     is_same = profile.form == "xml" and canonicalize(parse_xml(profile.data, profile.path)) == canonicalize(tree)
-    return profile.data if is_same else format_xml(tree), []
+    return profile.data if is_same else _check_result(format_xml(tree), target), []
+
+
+def _check_result(content: bytes, target: Path) -> bytes:
+    """@return the content. A version that only the file names, for example in YAML, can make it invalid as XML."""
+    violations = parse_profile(content, target).violations
+    if violations:
+        raise InputError(f"would be invalid: {violations[0].place}: {violations[0].text}; add --tolerant", target)
+    return content
 
 
 def make_portable(profile: Profile) -> list[str]:

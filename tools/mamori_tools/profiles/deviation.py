@@ -38,6 +38,7 @@ NOTES = {
     "N05": "the value begins or ends with a space",
     "N06": "a connection or an order names something that the system does not have",
     "N07": "the name occurs more than once",
+    "N08": "the version is unknown",
 }
 
 

@@ -146,11 +146,12 @@ class Field:
 
 @dataclass(frozen=True)
 class FieldValue:
-    """A value in a file. `owner` is the element that has the field."""
+    """A value in a file. `owner` is the element that has the field; `part` the name of the action, if the field is that of an action."""
 
     field: Field
     owner: etree._Element
     value: str
+    part: str = ""
 
 
 def _read_fields() -> tuple[Field, ...]:
@@ -178,7 +179,8 @@ def read_fields(root: etree._Element, table: SchemaTable) -> list[FieldValue]:
         for owner in root.xpath(owner_path[1], namespaces=table.namespaces):
             for field in fields:
                 for node in owner.xpath(field.place, namespaces=table.namespaces):
-                    found.append(FieldValue(field, owner, _get_text(field, node)))
+                    part = get_local_name(node.getparent().getparent()) if field.place.startswith("*/") else ""
+                    found.append(FieldValue(field, owner, _get_text(field, node), part))
     return found
 
 

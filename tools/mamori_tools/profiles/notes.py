@@ -26,6 +26,9 @@ OLD_NAMES = {"kind": ("PeriodicExecutionContext",), "interfaceType": ("CORBA_Any
 def list_notes(root: etree._Element, family: str, table: SchemaTable) -> list[Deviation]:
     """@param root a valid or repaired tree. @return notes in the order of the file."""
     found = [*_check_values(root, table)]
+    marked = View(root, table).get_value("version")
+    if marked != table.version:
+        found.append(_note("N08", View(root, table), f"{marked!r}, read as {table.version}"))
     found += _check_rtc(RtcView(root, table)) if family == "rtc" else _check_rts(RtsView(root, table))
     return sorted(found, key=lambda note: note.line)
 
@@ -70,12 +73,13 @@ def find_reference_errors(profile: RtsView) -> Iterator[Deviation]:
     """Duplicate instances, and connections and orders with an unknown component or port. For the generation of a system, each is an error."""
     yield from _find_duplicates(profile.components, "instanceName", "id")
     known = {(part.get_value("id"), part.get_value("instanceName")): part for part in profile.components}
+    ports: dict[etree._Element, set[str]] = {}
     for connector in profile.connectors:
         for end in filter(None, profile.get_ends(connector)):
             owner = known.get((end.get_value("componentId"), end.get_value("instanceName")))
             if owner is None:
                 yield _note("N06", end, f"component {end.get_value('instanceName')} ({end.get_value('componentId')})")
-            elif owner.list_parts("DataPorts", "ServicePorts") and not _has_port(owner, end.get_value("portName")):
+            elif not _has_port(ports, owner, end.get_value("portName")):
                 yield _note("N06", end, f"port {end.get_value('portName')} of {end.get_value('instanceName')}")
     for targets in profile.orders.values():
         for condition in targets:
@@ -85,10 +89,12 @@ def find_reference_errors(profile: RtsView) -> Iterator[Deviation]:
                     yield _note("N06", part, f"component {part.get_value('instanceName')} ({part.get_value('componentId')})")
 
 
-def _has_port(component: View, name: str) -> bool:
-    """Tools write names of ports with and without the instance in front."""
-    names = {part.name.rpartition(".")[2] for part in component.list_parts("DataPorts", "ServicePorts")}
-    return name.rpartition(".")[2] in names
+def _has_port(ports: dict[etree._Element, set[str]], component: View, name: str) -> bool:
+    """Tools write names of ports with and without the instance in front. @param ports cache of names. A component without ports can have any."""
+    if component.element not in ports:
+        ports[component.element] = {part.name.rpartition(".")[2] for part in component.list_parts("DataPorts", "ServicePorts")}
+    names = ports[component.element]
+    return not names or name.rpartition(".")[2] in names
 
 
 def _find_duplicates(parts: Iterable[View], *names: str) -> Iterator[Deviation]:

@@ -7,20 +7,21 @@
 from __future__ import annotations
 
 import fnmatch
-from collections.abc import Mapping
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from mamori_tools.profiles.profile import Profile, load_profile
 from mamori_tools.profiles.view import RtcView, RtsView
+from mamori_tools.profiles.xml_file import MAX_BYTES
 from mamori_trace.base.errors import InputError
 from mamori_trace.base.nearest_names import nearest_names
 
-ROOT_NAME = b"RtcProfile"
-START_BYTES = 4096
+ROOT = re.compile(rb"(\s|\xef\xbb\xbf|\xff\xfe|\xfe\xff|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^\[>]*(\[.*?\]\s*)?>)*+<([\w.-]+:)?RtcProfile\b", re.DOTALL)
 FILES_MAX = 10000
-HIDDEN = (".", "build", "node_modules")
-"""Beginnings of the names of folders that are not searched."""
+HIDDEN = re.compile(r"\..*|build([-_].*)?|node_modules")
+"""Names of folders that are not searched."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ def find_packages(folder: Path) -> tuple[list[Package], list[str]]:
     for path in _list_files(folder):
         try:
             with path.open("rb") as file:
-                if ROOT_NAME not in file.read(START_BYTES).replace(b"\0", b""):  # also in UTF-16
+                if not ROOT.match(file.read(MAX_BYTES).replace(b"\0", b"")):  # also in UTF-16
                     continue
             profile = load_profile(path, tolerant=True)
         except (InputError, OSError) as error:
@@ -96,21 +97,21 @@ def find_packages(folder: Path) -> tuple[list[Package], list[str]]:
 
 def _list_files(folder: Path) -> list[Path]:
     found = []
-    for path in folder.rglob("*.xml"):
-        if path.is_file() and not any(part.startswith(HIDDEN) for part in path.relative_to(folder).parts[:-1]):
+    for path in folder.rglob("*"):
+        if path.suffix.lower() == ".xml" and path.is_file() and not any(HIDDEN.fullmatch(part) for part in path.relative_to(folder).parts[:-1]):
             found.append(path)
         if len(found) > FILES_MAX:
             raise InputError(f"more than {FILES_MAX} XML files; specify a smaller folder", folder)
     return sorted(found)
 
 
-def select(packages: list[Package], criteria: Mapping[str, str]) -> list[Package]:
+def select(packages: list[Package], criteria: Sequence[tuple[str, str]]) -> list[Package]:
     """The packages that match each pattern (with * and ?, case ignored). @raise InputError for a key that is not in KEYS."""
-    for key in criteria:
+    for key, _ in criteria:
         if key not in KEYS:
             raise InputError(f"profile find: there is no key '{key}'; {nearest_names(key, KEYS)}")
     return [package for package in packages if all(
-        any(fnmatch.fnmatchcase(value.lower(), pattern.lower()) for value in list_values(package, key)) for key, pattern in criteria.items())]  # fmt: skip
+        any(fnmatch.fnmatchcase(value.lower(), pattern.lower()) for value in list_values(package, key)) for key, pattern in criteria)]  # fmt: skip
 
 
 def resolve_components(system: Profile, packages: list[Package]) -> dict[str, Package]:

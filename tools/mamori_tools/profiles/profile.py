@@ -23,7 +23,8 @@ from mamori_trace.base.errors import InputError
 CONF = "conf"
 FAMILY_ROOTS = {"RtcProfile": "rtc", "RtsProfile": "rts", "RTSystemProfile": "rts"}
 YAML_START = re.compile(rb"""(#[^\n]*+\n|\s|---)*+["']?rtsProfile["']?\s*:""")
-CONF_LINE = re.compile(rb"^[ \t]*[A-Za-z_][\w.%-]*[ \t]*:", re.MULTILINE)
+CONF_LINE = re.compile(rb"^[ \t]*(config|corba|corba_servant|exec_cxt|example|logger|manager|naming|openrtm|os|port|sdo|timer)\.[\w.%-]+[ \t]*[:=]", re.MULTILINE)
+"""A key of OpenRTM's manager."""
 IGNORED = ("D07", "D08", "D11")
 """Deviations whose content is not loaded."""
 TITLES = {"rtc": "RTC profile", "rts": "RTS profile", CONF: "rtc.conf"}
@@ -56,14 +57,19 @@ class Profile:
 def load_profile(path: Path, tolerant: bool = False, schema: Path | None = None) -> Profile:
     """@param schema folder with the published schema files; None: the own tables.
     @raise InputError with file and line if the file cannot be read."""
-    data = read_bytes(path)
+    return parse_profile(read_bytes(path), path, tolerant, schema)
+
+
+def parse_profile(data: bytes, path: Path, tolerant: bool = False, schema: Path | None = None) -> Profile:
+    """The same for the content of a file."""
     if not data.strip():
         raise InputError("is empty; specify a profile", path)
-    if YAML_START.match(data.removeprefix(b"\xef\xbb\xbf")) or path.suffix in (".yaml", ".yml"):
-        return _load_yaml(path, data, tolerant, schema)
+    suffixes = [suffix.lower() for suffix in path.suffixes]
     if data.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<") or data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return _load_xml(path, data, tolerant, schema)
-    if path.suffix == ".conf" or CONF_LINE.search(data):
+    if YAML_START.match(data.removeprefix(b"\xef\xbb\xbf")) or suffixes[-1:] in ([".yaml"], [".yml"]):
+        return _load_yaml(path, data, tolerant, schema)
+    if ".conf" in suffixes or CONF_LINE.search(data):
         return _load_conf(path, data, tolerant)
     raise InputError("not a profile: neither XML, nor the YAML form, nor rtc.conf; specify another file", path)
 
@@ -87,7 +93,7 @@ def _load_yaml(path: Path, data: bytes, tolerant: bool, schema: Path | None) -> 
     own = Profile(path, data, "rts", "yaml", version, root)
     if tolerant:
         own.root, found = repair(root, table)
-        own.deviations = [*unknown, *found]
+        own.deviations = [*_mark_version(own.root, table), *unknown, *found]
     own.violations = ([] if tolerant else [_convert(deviation) for deviation in unknown]) + find_violations(own.root, "rts", version, schema)
     return own
 
@@ -98,7 +104,7 @@ def _load_xml(path: Path, data: bytes, tolerant: bool, schema: Path | None) -> P
     if family is None:
         raise InputError(f"is XML, but not a profile: its root is {get_local_name(root)}", path, root.sourceline)
     versions = list_versions(family)
-    marked = next((value for name, value in root.attrib.items() if name.rpartition("}")[2] == "version"), "")
+    marked = get_marked_version(root)
     own = Profile(path, data, family, "xml", marked if marked in versions else versions[-1], root)
     if tolerant:
         _repair(own, marked, versions, schema)
@@ -112,14 +118,26 @@ def _repair(own: Profile, marked: str, versions: tuple[str, ...], schema: Path |
     results = []
     for version in [own.version, *(other for other in reversed(versions) if other != own.version)]:
         root, found = repair(parse_xml(own.data, own.path).getroot(), load_table(own.family, version))
-        if version != marked:
-            found.insert(0, Deviation("D14", root.sourceline or 1, "", f"marked {marked!r}, read as {version}"))
+        found = [*_mark_version(root, load_table(own.family, version), marked), *found]
         violations = find_violations(root, own.family, version, schema)
         ignored = sum(deviation.id in IGNORED for deviation in found)
         results.append(((len(violations), ignored, len(found)), version, root, found, violations))
         if not found and not violations:
             break
     _, own.version, own.root, own.deviations, own.violations = min(results, key=lambda result: result[0])
+
+
+def get_marked_version(root: Any) -> str:
+    return next((str(value) for name, value in root.attrib.items() if name.rpartition("}")[2] == "version"), "")
+
+
+def _mark_version(root: Any, table: SchemaTable, marked: str | None = None) -> list[Deviation]:
+    """Sets the version of a repaired root to the version as which it was read. @param marked version in the file; None: that of the root."""
+    marked = get_marked_version(root) if marked is None else marked
+    if marked == table.version:
+        return []
+    root.set(f"{table.root.rpartition('}')[0]}}}version", table.version)
+    return [Deviation("D14", root.sourceline or 1, "", f"marked {marked!r}, read as {table.version}")]
 
 
 def _convert(deviation: Deviation) -> Finding:

@@ -22,7 +22,8 @@ class View:
 
     @property
     def line(self) -> int:
-        return int(self.element.sourceline or 1)
+        """That of the parent for an element that a repair added."""
+        return next((int(own.sourceline) for own in (self.element, *self.element.iterancestors()) if own.sourceline), 1)
 
     @property
     def name(self) -> str:

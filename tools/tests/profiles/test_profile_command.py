@@ -75,6 +75,7 @@ def test_show_names_the_fields_with_a_value(folder: Path, capsys: pytest.Capture
     assert status == 0
     assert "\nconfiguration\n  parameter name                 gain\n" in out
     assert "\n  constraint                     0<=x<=2\n" in out
+    assert any(line.split() == ["OnExecute", "overview", "moves"] for line in out.splitlines())
     assert "\nlanguage and environment\n  language             C++\n" in out
 
 
@@ -118,10 +119,10 @@ def test_convert_of_a_tolerated_file_names_what_it_changed(folder: Path, capsys:
 
 @pytest.mark.verifies("SWR-PFL-010", polarity="violation")
 @pytest.mark.parametrize("words", [["convert", "wrong.xml", "--out", "out.xml"], ["show", "wrong.xml"], ["diff", "wrong.xml", "wrong.xml"]])
-def test_an_invalid_file_is_status_1_and_nothing_is_written(folder: Path, capsys: pytest.CaptureFixture[str], words: list[str]) -> None:
+def test_an_invalid_file_is_not_status_0_and_nothing_is_written(folder: Path, capsys: pytest.CaptureFixture[str], words: list[str]) -> None:
     status, out, err = run(capsys, *words)
 
-    assert (status, out, Path("out.xml").exists()) == (1, "", False)
+    assert (status, out, Path("out.xml").exists()) == (2 if words[0] == "diff" else 1, "", False)
     assert err.startswith("mamori: wrong.xml:37: ServicePorts[service]")
     assert err.endswith("correct the file or add --tolerant\n")
 
@@ -143,7 +144,7 @@ def test_diff_shows_what_was_changed_added_and_removed(folder: Path, capsys: pyt
     assert status == 1
     assert out.splitlines() == ["~ BasicInfo/@category: test -> a", "- ConfigurationSet/Configuration[gain]/@unit: 1",
                                 "~ ConfigurationSet/Configuration[gain]/Properties[__widget__]/@value: slider.0.01 -> spin"]  # fmt: skip
-    assert json.loads(run(capsys, "diff", "new.xml", "motor/RTC.xml", "--json")[1])[2] == {
+    assert json.loads(run(capsys, "diff", "new.xml", "motor/RTC.xml", "--json")[1])["differences"][2] == {
         "place": "ConfigurationSet/Configuration[gain]/@unit", "first": None, "second": "1"}  # fmt: skip
     assert run(capsys, "diff", "new.xml", "motor/RTC.xml")[1].splitlines()[2] == "+ ConfigurationSet/Configuration[gain]/@unit: 1"
 
@@ -157,6 +158,59 @@ def test_diff_ignores_order_layout_and_extension_types(folder: Path, capsys: pyt
     Path("new.xml").write_text(text, encoding="utf-8")
 
     assert run(capsys, "diff", "motor/RTC.xml", "new.xml") == (0, "", "")
+
+
+@pytest.mark.verifies("SWR-PFL-011")
+def test_diff_compares_numbers_booleans_and_dates_by_value(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = RTC_03.replace('"1000.0"', '"1e3"').replace('implemented="true"', 'implemented="1"').replace('maxInstances="2"', 'maxInstances=" +2"')
+    Path("new.xml").write_text(text.replace("2026-01-02T03:04:05Z", "2026-01-02T04:04:05.0+01:00"), encoding="utf-8")
+
+    assert run(capsys, "diff", "motor/RTC.xml", "new.xml") == (0, "", "")
+
+
+@pytest.mark.verifies("SWR-PFL-005")
+def test_show_and_diff_name_the_deviations(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("new.xml").write_text(RTC_03.replace("<rtc:BasicInfo", '<rtc:BasicInfo rtc:colour="red"'), encoding="utf-8")
+
+    for words in (["diff", "motor/RTC.xml", "new.xml"], ["show", "new.xml"]):
+        status, out, err = run(capsys, *words, "--tolerant")
+        assert (status, err) == (0, "mamori: new.xml:7: D07: BasicInfo: the attribute is unknown: rtc:colour ignored\n")
+        assert "D07" not in out
+        content = json.loads(run(capsys, *words, "--tolerant", "--json")[1])
+        assert [own["id"] for own in content["deviations"]] == ["D07"]
+
+
+@pytest.mark.verifies("SWR-PFL-010", technique="error_guessing")
+@pytest.mark.parametrize(("old", "new"), [('rts:version="0.2"', 'rts:version="0.1"'), ('rts:version="0.2"', 'rts:version="9"'), (' rts:version="0.2"', "")])
+def test_a_tolerated_file_is_written_with_the_version_that_was_read(folder: Path, capsys: pytest.CaptureFixture[str], old: str, new: str) -> None:
+    Path("RTS.xml").write_text(RTS_02.replace(old, new), encoding="utf-8")
+
+    assert run(capsys, "convert", "RTS.xml", "--out", "out.XML", "--tolerant")[0] == 0
+    assert run(capsys, "check", "out.XML") == (0, "out.XML: RTS profile 0.2: valid\n", "")
+    assert Path("out.XML").read_bytes().endswith(b">\n")
+
+
+@pytest.mark.verifies("SWR-PFL-010", polarity="violation")
+def test_a_yaml_form_of_another_version_does_not_become_xml(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    run(capsys, "convert", "RTS.xml", "--out", "RTS.YAML")
+    Path("RTS.YAML").write_text(Path("RTS.YAML").read_text().replace("version: '0.2'", "version: '0.1'"))
+    status, _, err = run(capsys, "convert", "RTS.YAML", "--out", "out.xml")
+
+    assert (status, Path("out.xml").exists()) == (2, False)
+    assert "would be invalid" in err
+    assert run(capsys, "convert", "RTS.YAML", "--out", "out.xml", "--tolerant")[0] == 0
+    assert run(capsys, "check", "out.xml")[0] == 0
+
+
+@pytest.mark.verifies("SWR-PFL-003", technique="boundary_values")
+@pytest.mark.parametrize("count", [1000, 1001])
+def test_at_most_1000_violations_are_printed(folder: Path, capsys: pytest.CaptureFixture[str], count: int) -> None:
+    Path("a.conf").write_text("key\n" + "".join(f"k{number}\n" for number in range(count - 1)), encoding="utf-8")
+    status, out, _ = run(capsys, "check", "a.conf")
+
+    assert (status, len(out.splitlines())) == (1, count + 1)
+    assert out.endswith(f"a.conf: rtc.conf: invalid, {count} violations\n")
+    assert ("a.conf: 1 more, see --json\n" in out) is (count == 1001)
 
 
 @pytest.mark.verifies("SWR-PFL-011", polarity="violation")
@@ -192,10 +246,22 @@ def test_find_reads_packages_with_deviations_but_not_hidden_ones(folder: Path, c
 
 
 @pytest.mark.verifies("SWR-PFL-012")
+def test_find_reads_a_long_comment_any_case_and_each_pattern(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name in ("builder", "build-host"):
+        Path(name).mkdir()
+        Path(name, "RTC.XML").write_text(RTC_03.replace("<!-- a motor -->", f"<!-- {'licence' * 2000} -->").replace("Motor", "Long"), encoding="utf-8")
+    Path("text.xml").write_text("<a>RtcProfile</a>", encoding="utf-8")
+
+    assert run(capsys, "find", ".", "name=Long")[:2] == (0, "RTC:Mamori:test:Long:1.0.0  builder/RTC.XML\n")
+    assert run(capsys, "find", ".", "name=L*", "name=M*")[:2] == (1, "")
+    assert "text.xml" not in run(capsys, "find", ".")[2]
+
+
+@pytest.mark.verifies("SWR-PFL-012")
 def test_each_key_has_values(folder: Path) -> None:
     packages, _ = find_packages(folder / "motor")
 
-    assert all(len(select(packages, {key: "*"})) == 1 for key in KEYS)
+    assert all(len(select(packages, [(key, "*")])) == 1 for key in KEYS)
 
 
 @pytest.mark.verifies("SWR-PFL-012", polarity="violation")
@@ -264,8 +330,10 @@ def test_unknown_and_double_ids_are_rejected_with_file_and_line(folder: Path, ch
 @pytest.mark.verifies("SWR-PFL-003", polarity="violation")
 @pytest.mark.parametrize(("words", "message"), [
     (["check", "RTS.xml", "rtc.conf"], "2 paths instead of 1"), (["diff", "RTS.xml"], "1 paths instead of 2"), (["convert", "RTS.xml"], "convert needs --out"),
-    (["show", "RTS.xml", "--out", "x.xml"], "only convert has --out and --portable"), (["show", "RTS.xml", "--system", "RTS.xml"], "--system is for find"),
-    (["check", "RTS.xml", "--schema", "."], "has no RtsProfile_ext.xsd"), (["check", "missing.xml"], "missing.xml: not found"),
+    (["show", "RTS.xml", "--out", "x.xml"], "--out is for convert; omit it"), (["show", "RTS.xml", "--system", "RTS.xml"], "--system is for find"),
+    (["find", ".", "--tolerant"], "--tolerant is for check, show, convert, diff"), (["convert", "RTS.xml", "--out", "x.xml", "--json"], "--json is for"),
+    (["check", "RTS.xml", "--schema", "nothing"], "nothing: not found"), (["check", "RTS.xml", "--schema", "RTS.xml"], "RTS.xml: not a folder"),
+    (["convert", "RTS.xml", "--out", "x.json"], "names no form"), (["check", "RTS.xml", "--schema", "."], "has no RtsProfile_ext.xsd"), (["check", "missing.xml"], "missing.xml: not found"),
 ])  # fmt: skip
 def test_wrong_arguments_are_one_line_and_status_2(folder: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str) -> None:
     status, out, err = run(capsys, *words)

@@ -9,6 +9,7 @@ from profile_samples import CONF
 
 from mamori_tools.profiles.conf_file import ConfFile
 from mamori_tools.profiles.profile import load_profile
+from mamori_trace.base.errors import InputError
 
 
 @pytest.mark.verifies("SWR-PFL-007")
@@ -31,7 +32,8 @@ def test_bytes_come_back_unchanged(data: bytes) -> None:
 @pytest.mark.verifies("SWR-PFL-007")
 @pytest.mark.parametrize(("line", "key", "value"), [
     ("a: b", "a", "b"), ("a:b:c", "a", "b:c"), ("a=b", "a", "b"), ("  a  :  b  ", "a", "b"),
-    ("a.b.c : ", "a.b.c", ""), (r"a\:b: c", "a:b", "c"), ("a: b\\\\", "a", "b\\\\"),
+    ("a.b.c : ", "a.b.c", ""), (r"a\:b: c", "a:b", "c"), ("a: b\\\\", "a", "b\\"),
+    (r"a: C:\\x\ty\q", "a", "C:\\x\tyq"), ("a b c", "a", "b c"), (r"a\ b c", "a b", "c"), ("a", "a", ""),
 ])  # fmt: skip
 def test_spellings_of_an_entry(line: str, key: str, value: str) -> None:
     conf = ConfFile(line.encode() + b"\n")
@@ -54,6 +56,34 @@ def test_a_changed_value_changes_only_its_entry(key: str, old: bytes, new: bytes
     assert conf.format() == CONF.replace(old, new)
     assert conf.get_value(key) == "x y"
     assert conf.get_value("other") is None
+
+
+@pytest.mark.verifies("SWR-PFL-007", technique="error_guessing")
+@pytest.mark.parametrize("data", [CONF, b"", b"x \\\n1\n"])
+@pytest.mark.parametrize(("key", "value"), [("x", "y\\"), ("x", "a\nb\r\tc"), ("#k", "1"), ("k:e", "1"), ("a b", "#c"), ("!", ""), ("x", "y: z")])
+def test_any_text_that_is_set_is_read_back(data: bytes, key: str, value: str) -> None:
+    conf = ConfFile(data)
+    conf.set_value(key, value)
+    conf.set_value(key, value)
+
+    assert ConfFile(conf.format()).get_value(key) == value
+    assert len(ConfFile(conf.format()).entries) == len(ConfFile(data).entries) + (ConfFile(data).get_value(key) is None)
+
+
+@pytest.mark.verifies("SWR-PFL-007", polarity="violation")
+@pytest.mark.parametrize(("data", "key", "value"), [(CONF, "", "1"), (CONF, "x", " y"), (CONF, " x", "y"), (b"a: 1, \\", "x", "y")])
+def test_text_that_would_not_be_read_back_is_rejected(data: bytes, key: str, value: str) -> None:
+    conf = ConfFile(data)
+    with pytest.raises(InputError, match="cannot hold"):
+        conf.set_value(key, value)
+    assert conf.format() == data
+
+
+@pytest.mark.verifies("SWR-PFL-007", technique="error_guessing")
+def test_many_keys_take_no_long_time() -> None:
+    conf = ConfFile(b"".join(b"key%d: 1\n" % number for number in range(40_000)))
+
+    assert (len(conf.entries), conf.deviations, conf.get_value("key39999")) == (40_000, [], "1")
 
 
 @pytest.mark.verifies("SWR-PFL-007", technique="error_guessing")

@@ -119,9 +119,11 @@ NAMES = b'<?xml version="1.0" encoding="latin-9000"?>\n<a/>'
     (b"rtsProfile:\n  id: a\n  creationDate: {year: x}\n", 3, "a date is a map of integers"),
     (b"rtsProfile: x\n", 1, "a map of keys and values is expected"),
     (b"rtsProfile:\n  id: \xff\n", 2, "not text in UTF-8"),
-    (b"a: 1\n\0\n", 2, "has a zero byte"),
+    (b"corba.a: 1\n\0\n", 2, "has a zero byte"),
+    (b"\n\nNote: a text\n", None, "not a profile"),
+    (b"def f():\n    x: int = 3\n", None, "not a profile"),
 ])  # fmt: skip
-def test_a_damaged_or_dangerous_file_gives_one_error_with_its_line(tmp_path: Path, data: bytes, line: int, message: str) -> None:
+def test_a_damaged_or_dangerous_file_gives_one_error_with_its_line(tmp_path: Path, data: bytes, line: int | None, message: str) -> None:
     path = write(tmp_path, data, "profile")
     with pytest.raises(InputError, match=message) as caught:
         load_profile(path, tolerant=True)

@@ -173,6 +173,7 @@ NOTED = [
     (RTS_02, 'rts:ConfigurationSets rts:id="default"', 'rts:ConfigurationSets rts:id="__widget__"', "N02", "__widget__"),
     (RTS_02, '"PERIODIC"', '"PeriodicExecutionContext"', "N03", "rts:kind='PeriodicExecutionContext'"),
     (RTS_02, "RTSystem:Mamori:Drive:1.0.0", "Drive", "N04", "Drive"),
+    (RTC_03, 'rtc:version="0.3"', 'rtc:version="0.4"', "N08", "'0.4', read as 0.3"),
     (RTS_02, 'rts:portName="Motor0.in"', 'rts:portName="Motor0.inn"', "N06", "port Motor0.inn of Motor0"),
     (RTS_02, 'rts:id="RTC:Mamori:test:Motor:1.0.0"', 'rts:id="RTC:Mamori:test:Motor:2.0.0"', "N06", "component Motor0 (RTC:Mamori:test:Motor:1.0.0)"),
     (RTS_02, '<rts:DataPorts xsi:type="rtsExt:dataport_ext" rts:name="in"', '<rts:DataPorts xsi:type="rtsExt:dataport_ext" rts:name="out"', "N07", "out"),
