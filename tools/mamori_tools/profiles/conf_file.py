@@ -122,4 +122,3 @@ def _unescape(text: str) -> str:
 
 def _escape(text: str, letters: dict[str, str]) -> str:
     return "".join(letters.get(letter, letter) for letter in text)
-

@@ -23,7 +23,7 @@ from mamori_trace.base.errors import InputError
 CONF = "conf"
 FAMILY_ROOTS = {"RtcProfile": "rtc", "RtsProfile": "rts", "RTSystemProfile": "rts"}
 YAML_START = re.compile(rb"""(#[^\n]*+\n|\s|---)*+["']?rtsProfile["']?\s*:""")
-CONF_LINE = re.compile(rb"^[ \t]*(config|corba|corba_servant|exec_cxt|example|logger|manager|naming|openrtm|os|port|sdo|timer)\.[\w.%-]+[ \t]*[:=]", re.MULTILINE)
+CONF_LINE = re.compile(rb"^[ \t]*(config|corba|corba_servant|exec_cxt|logger|manager|naming|openrtm|os|port|sdo|timer)\.[\w.%-]+[ \t]*[:=]", re.MULTILINE)
 """A key of OpenRTM's manager."""
 IGNORED = ("D07", "D08", "D11")
 """Deviations whose content is not loaded."""

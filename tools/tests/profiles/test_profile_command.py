@@ -193,7 +193,8 @@ def test_a_tolerated_file_is_written_with_the_version_that_was_read(folder: Path
 @pytest.mark.verifies("SWR-PFL-010", polarity="violation")
 def test_a_yaml_form_of_another_version_does_not_become_xml(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     run(capsys, "convert", "RTS.xml", "--out", "RTS.YAML")
-    Path("RTS.YAML").write_text(Path("RTS.YAML").read_text().replace("version: '0.2'", "version: '0.1'"))
+    text = Path("RTS.YAML").read_text(encoding="utf-8")
+    Path("RTS.YAML").write_text(text.replace("version: '0.2'", "version: '0.1'"), encoding="utf-8")
     status, _, err = run(capsys, "convert", "RTS.YAML", "--out", "out.xml")
 
     assert (status, Path("out.xml").exists()) == (2, False)

@@ -105,7 +105,7 @@ NAMES = b'<?xml version="1.0" encoding="latin-9000"?>\n<a/>'
     (NAMES.replace(b"latin-9000", b"undefined"), 1, "unknown encoding undefined"),
     (NAMES.replace(b"latin-9000", b"punycode"), 1, "unknown encoding punycode"),
     ("<a/>".encode("utf-16-le"), 1, "is not XML text in utf-8"),
-    ("<!-- -->\n<a>\0</a>".encode(), 2, "is not XML text in utf-8"),
+    (b"<!-- -->\n<a>\0</a>", 2, "is not XML text in utf-8"),
     (NAMES.replace(b"latin-9000", b"UTF-16"), 1, "is not XML text in UTF-16"),
     (b"rtsProfile:\n  id: \xef\xbf\xbe\n", 2, "cannot be part of a profile|not text in UTF-8"),
     (b'rtsProfile:\n  id: "\\uFFFF"\n', 2, "cannot be part of a profile"),

@@ -132,7 +132,8 @@ def test_a_composite_type_of_another_version_has_no_meaning(tmp_path: Path) -> N
 def test_a_type_of_a_connection_comes_from_its_port(tmp_path: Path) -> None:
     text = RTS_02.replace(' rts:dataType="IDL:RTC/TimedDouble:1.0"', "").replace(
         '<rts:DataPorts xsi:type="rtsExt:dataport_ext" rts:name="out" rtsExt:visible="true"/>',
-        '<rts:DataPorts xsi:type="rtsExt:dataport_ext" rts:name="out"><rtsExt:Properties rtsExt:name="dataport.data_type" rtsExt:value="T"/></rts:DataPorts>')
+        '<rts:DataPorts xsi:type="rtsExt:dataport_ext" rts:name="out"><rtsExt:Properties rtsExt:name="dataport.data_type" rtsExt:value="T"/></rts:DataPorts>',
+    )
     profile = load_profile(write(tmp_path, text), tolerant=True)
 
     assert [deviation.repair for deviation in profile.deviations] == ["rts:dataType='T' added"]
