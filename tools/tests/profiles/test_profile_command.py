@@ -334,7 +334,8 @@ def test_unknown_and_double_ids_are_rejected_with_file_and_line(folder: Path, ch
     (["show", "RTS.xml", "--out", "x.xml"], "--out is for convert; omit it"), (["show", "RTS.xml", "--system", "RTS.xml"], "--system is for find"),
     (["find", ".", "--tolerant"], "--tolerant is for check, show, convert, diff"), (["convert", "RTS.xml", "--out", "x.xml", "--json"], "--json is for"),
     (["check", "RTS.xml", "--schema", "nothing"], "nothing: not found"), (["check", "RTS.xml", "--schema", "RTS.xml"], "RTS.xml: not a folder"),
-    (["convert", "RTS.xml", "--out", "x.json"], "names no form"), (["check", "RTS.xml", "--schema", "."], "has no RtsProfile_ext.xsd"), (["check", "missing.xml"], "missing.xml: not found"),
+    (["convert", "RTS.xml", "--out", "x.json"], "names no form"), (["check", "RTS.xml", "--schema", "."], "has no RtsProfile_ext.xsd"),
+    (["check", "missing.xml"], "missing.xml: not found"),
 ])  # fmt: skip
 def test_wrong_arguments_are_one_line_and_status_2(folder: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str) -> None:
     status, out, err = run(capsys, *words)
