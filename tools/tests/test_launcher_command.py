@@ -30,7 +30,7 @@ from verification.plan import gate
         (("build", "a", "b"), "build does not take 'b'"),
         (("demo", "--jobs", "0"), "'0' is not an integer of at least 1"),
         (("mutate", "--jobs", "-1"), "mutate: argument --jobs: '-1' is not an integer of at least 1"),
-        (("mutate", "nothing.cpp"), "mutate: 'nothing.cpp' is no source or header of kernel, safety or ports; ./mamori mutate --list"),
+        (("mutate", "nothing.cpp"), "mutate: 'nothing.cpp' is no source or header of kernel, safety, ports or examples/safe_arm; ./mamori mutate --list"),
         (("demo", "--instants", "-1"), "--instants"),
         (("demo", "--instants", "1.5"), "'1.5' is not an integer of at least 1"),
         (("demo", "--motion"), "expected one argument"),

@@ -301,6 +301,19 @@ TEST_F(JointMonitorTest, BrakeFeedbackMayContradictOnlyForItsTime) {
     EXPECT_EQ(step().faults, 0U);
 }
 
+TEST_F(JointMonitorTest, TheTimeOfAContradictionBeginsAgainWithTheActivation) {
+    verifies("SWR-SAF-008", Technique::kErrorGuessing);
+    reading_.brakes_closed = true;
+    reading_.brakes_open = false;
+    const auto tolerated = kBrakeFeedbackTime.ns / kFrame.ns;
+    for (int start = 0; start < 2; ++start) {
+        ASSERT_EQ(sut_.on_activated({0, now_}), Status::kOk);
+        for (std::int64_t i = 0; i < tolerated; ++i) {
+            ASSERT_EQ(step().faults, 0U) << start << " " << i;
+        }
+    }
+}
+
 TEST_F(JointMonitorTest, OneBrakeThatSticksContradictsBothCommands) {
     verifies("SWR-SAF-008", Technique::kFaultInjection, Polarity::kViolation);
     reading_.brakes_closed = false;

@@ -64,11 +64,13 @@ TEST(MachineTest, OperatorStartsAgainAfterOwnStopAndResetsOneThatNeedsIt) {
 
 TEST(MachineTest, PlantWhoseStateIsNoNumberIsReported) {
     verifies("SWR-SAF-016", Technique::kFaultInjection, Polarity::kViolation);
-    mamori::sim::LoadedModel loaded = mamori::sim::load_arm_model(SAFE_ARM_MODEL_FILE);
-    RunRecord record{{}, *loaded.model, {}, Instant{}, Instant{}};
+    const mamori::sim::LoadedModel loaded = mamori::sim::load_arm_model(SAFE_ARM_MODEL_FILE);
+    ASSERT_TRUE(loaded.model.has_value()) << loaded.error;
+    mamori::sim::ArmModel model = *loaded.model;
+    RunRecord record{{}, model, {}, Instant{}, Instant{}};
     for (const double friction : {0.05, std::numeric_limits<double>::infinity()}) {
-        loaded.model->joints[6].viscous_friction_nm_s_rad = friction;
-        mamori::sim::ArmPlant plant{*loaded.model};
+        model.joints[6].viscous_friction_nm_s_rad = friction;
+        mamori::sim::ArmPlant plant{model};
         Machine sut{plant, virtual_host, {}, record};
         sut.apply(0U, Instant{}, kFrame);
         EXPECT_EQ(sut.is_plant_sound(), friction < 1.0);

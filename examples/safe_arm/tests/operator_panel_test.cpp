@@ -214,6 +214,19 @@ TEST_F(OperatorPanelTest, EitherChannelOfTheEnablingDeviceAloneStopsAndTheirDiff
     }
 }
 
+TEST_F(OperatorPanelTest, AnotherDemandAcknowledgesNoFailedSwitch) {
+    verifies("SWR-SAF-031", Technique::kErrorGuessing, Polarity::kViolation);
+    inputs_.enabling_closed = {true, false};
+    step_for(200_ms);
+    inputs_.enabling_closed = {false, false};
+    step();
+    inputs_.enabling_closed = {true, true};
+    inputs_.emergency_stop_closed = {false, false};
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(step().faults, to_bit(ArmFault::kEmergencyStop) | to_bit(ArmFault::kSwitchDiscrepancy));
+    }
+}
+
 TEST_F(OperatorPanelTest, TheSelectorGivesTheModeAndNoneIsTheModeOfTheSystem) {
     verifies("SWR-SAF-036");
     for (const OperatingMode mode : kModes) {

@@ -166,6 +166,32 @@ TEST_F(PositionEvidenceTest, FrictionAndOwnAccelerationNeedTheirTorque) {
     }
 }
 
+TEST_F(PositionEvidenceTest, ATorqueCountsUpToTwiceTheLimitOfItsDrive) {
+    verifies("SWR-SAF-049", Technique::kBoundaryValues, Polarity::kViolation);
+    EXPECT_EQ(push(1U, 2.0 * kTorqueLimitNm[1] * kOutside, 10), 0U) << "no drive has it";
+    EXPECT_EQ(push(1U, 2.0 * kTorqueLimitNm[1] * kInside, 10), kDoubtful);
+}
+
+TEST_F(PositionEvidenceTest, ASpeedBeforeTheBrakesClosedHidesNoTorqueAfterwards) {
+    verifies("SWR-SAF-049", Technique::kErrorGuessing, Polarity::kViolation);
+    reading_.measured_torque_nm[0] = kFrictionNmSRad[0] * 0.5;
+    drive_.torque_nm[0] = reading_.measured_torque_nm[0];
+    for (int i = 0; i < 2000; ++i) {
+        // From standstill without a jump: acceleration counts.
+        ASSERT_EQ(move(0U, i < 1000 ? 0.0005 * i : 0.5, 1).faults & kDoubtful, 0U) << i;
+    }
+    drive_.brake_release = false;
+    reading_.brakes_open = false;
+    reading_.brakes_closed = true;
+    push(0U, 0.0, 10);
+    drive_.brake_release = true;
+    reading_.brakes_open = true;
+    reading_.brakes_closed = false;
+
+    const int half_ms = static_cast<int>(kModelTimeS / kFrameS * 0.693);  // ln 2
+    EXPECT_EQ(push(0U, 2.0 * kModelDifferenceNm[0], half_ms + 2), kDoubtful);
+}
+
 TEST_F(PositionEvidenceTest, AContactThatFlickersDoesNotClearTheMean) {
     verifies("SWR-SAF-049", Technique::kErrorGuessing, Polarity::kViolation);
     std::uint32_t faults = 0U;

@@ -140,21 +140,21 @@ TEST_F(RunTest, FaultAndItsReactionAreRecorded) {
     EXPECT_FALSE(summary["standstill_at_s"].is_null());
 }
 
-TEST_F(RunTest, CommandsMayBeMissingForTheToleratedLossesAndNoFrameLonger) {
+TEST_F(RunTest, CommandsMayBeMissingOrLateForTheToleratedLossesAndNoFrameLonger) {
     verifies("SWR-SAF-008", Technique::kBoundaryValues, Polarity::kViolation);
     const double tolerated_s = static_cast<double>(kCommandLossesMax) * kFrameS;
-    const auto lose = [&](double duration_s) {
-        EXPECT_EQ(run(arguments("--frames 1600 --fault kind=message_lost,at=0.5,duration=" +
-                                std::to_string(duration_s))),
-                  0)
-            << messages_;
-        return read_summary();
-    };
-    EXPECT_EQ(lose(tolerated_s)["final_state"], "Operational");
+    for (const std::string kind : {"message_lost,at=0.5,duration=", "message_late,at=0.5,magnitude="}) {
+        const auto disturb = [&](double time_s) {
+            EXPECT_EQ(run(arguments("--frames 1600 --fault kind=" + kind + std::to_string(time_s))), 0)
+                << messages_;
+            return read_summary();
+        };
+        EXPECT_EQ(disturb(tolerated_s)["final_state"], "Operational") << kind;
 
-    const nlohmann::json lost = lose(tolerated_s + kFrameS);
-    EXPECT_EQ(lost["detected_fault"], "CommandStale");
-    EXPECT_EQ(lost["reaction"], "Ss1");
+        const nlohmann::json stale = disturb(tolerated_s + kFrameS);
+        EXPECT_EQ(stale["detected_fault"], "CommandStale") << kind;
+        EXPECT_EQ(stale["reaction"], "Ss1") << kind;
+    }
 }
 
 TEST_F(RunTest, ReleasedEmergencyStopNeedsResetAndStart) {

@@ -286,6 +286,23 @@ TEST_F(SafetySupervisorTest, AnEmergencyStopStopsTheArmAndAResetNeedsItsRelease)
     EXPECT_EQ(step().state, SafeState::kSelfTest);
 }
 
+TEST_F(SafetySupervisorTest, AStopBesideAnUnknownPositionIsNotLateWhileTorqueCarriesTheArm) {
+    verifies("SWR-SAF-051", Technique::kErrorGuessing);
+    ASSERT_EQ(operate().state, SafeState::kOperational);
+    reading_.panel_faults = to_bit(ArmFault::kEmergencyStop);
+    state_.faults = to_bit(ArmFault::kEncoderDiscrepancy);
+    state_.is_standing = false;
+    step_until(SafeState::kSafe, 4);
+    for (int i = 0; i < 50; ++i) {
+        const StopCommand command = step();
+        ASSERT_TRUE(command.torque_enable && !command.brake_release) << i;
+        ASSERT_EQ(command.torque_source, TorqueSource::kCarry) << i;
+    }
+    reading_.brakes_closed = true;
+    step();
+    EXPECT_FALSE(step().torque_enable);
+}
+
 TEST_F(SafetySupervisorTest, AFailedSwitchRefusesTheStart) {
     verifies("SWR-SAF-031", Technique::kFaultInjection, Polarity::kViolation);
     step_until(SafeState::kStandby, 400);

@@ -133,7 +133,7 @@ def _list_fields(profile: Profile) -> Iterator[tuple[str, list[tuple[str, str]]]
     groups: dict[tuple[str, object], list[tuple[str, str]]] = {}
     for own in sorted(read_fields(profile.root, profile.table), key=lambda found: found.part):
         if own.value:
-            groups.setdefault((own.field.title, own.owner), []).append((f"{own.part} {own.field.label}".strip(), own.value))
+            groups.setdefault((own.field.title, own.owner), []).append((" ".join((own.part, own.field.label)).strip(), own.value))
     for (title, _), lines in groups.items():
         yield title, lines
 
