@@ -89,8 +89,8 @@ class SafetyCycle : public Component, public CycleComponent {
         : Component(name), state_(state), log_(log) {}
     ~SafetyCycle() = default;
 
-    /// @name The machine. Called once per cycle in this order; on_fault() for each fault of the table that no
-    ///       part of the table raises.
+    /// @name The machine. Called once per cycle in this order; is_present() for each fault of the table, also
+    ///       if a row of the table raises it.
     /// @{
     virtual CycleInputs read_inputs(Instant now) noexcept = 0;
     /// @param[in] is_first first cycle of the self test, at power-up and after a reset. Only called there.
