@@ -268,7 +268,7 @@ class CycleExplorer final {
             keys_.push_back(key);
             numbers_.insert({std::string_view{keys_.back().data(), key.size()}, snapshots_.size()});
             snapshots_.push_back({shadow, {}});
-            std::memcpy(snapshots_.back().image.data(), real_.get(), sizeof(Real));
+            std::memcpy(snapshots_.back().image.data(), static_cast<const void*>(real_.get()), sizeof(Real));
         }
     }
 
