@@ -126,8 +126,7 @@ class CComponent : public Component {
 
   protected:
     /// @param[in] name    as for Component. @param[in] actions must outlive this object.
-    /// @param[in] self    the struct of the component, passed to each action; usually a member of this
-    /// object.
+    /// @param[in] self    struct of the component, passed to each action; usually a member of this object.
     constexpr CComponent(const char* name, const MamoriActions& actions, void* self) noexcept
         : Component(name), actions_(actions), self_(self) {}
     CComponent(const char* name, const MamoriActions&& actions, void* self) = delete;
