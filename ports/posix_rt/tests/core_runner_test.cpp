@@ -258,7 +258,7 @@ TEST_F(CoreRunnerTest, RunUntilStoppedEndsByAnotherThread) {
     EXPECT_EQ(host_.close(), Status::kOk);
 }
 
-/// Stands still but for its sleeps, which end at their instant.
+/// Advances only in its sleeps, each of which ends at its instant.
 class JumpingClock final : public TimeSource {
   public:
     std::int64_t read_ns() const noexcept override { return now_ns; }

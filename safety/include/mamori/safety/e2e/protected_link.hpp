@@ -59,7 +59,7 @@ class E2eSender final : public Component {
 /// Forwards the value of each accepted message; `out` gets nothing else.
 /// @tparam Message an E2eMessage. @tparam kLimits constexpr E2eInLimits of static storage.
 ///
-/// Thread safety: none. Time and memory: those of E2eInPort.
+/// Thread safety: none. Time and memory: as E2eInPort.
 template <typename Message, const auto& kLimits>
 class E2eReceiver final : public Component, public ProtectedReceiver {
   public:
